@@ -1,0 +1,189 @@
+#pragma once
+/// A problem as the user states it: what one input file says, in SI, before anything is built from it.
+/// Each struct declares its keys in problem.cpp (core/declaration.hpp); parser, checks, schema and reference page follow from that.
+
+#include <any>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crampon/core/error.hpp"
+#include "crampon/core/function.hpp"
+#include "crampon/core/vector.hpp"
+#include "crampon/contact/law.hpp"
+#include "crampon/geometry/shape.hpp"
+#include "crampon/material/material.hpp"
+
+namespace crampon {
+
+enum class Analysis { plane_strain, plane_stress, three_dimensional };
+enum class ShapeFunctionKind { linear, gimp, bspline };
+enum class StressUpdate { usl, musl, usf, usavg };
+
+/// [grid]: uniform Cartesian background grid.
+struct GridInput : Located {
+  std::vector<double> origin;  ///< lowest corner, m, one per dimension
+  std::vector<double> size;    ///< extent, m; a whole number of cells within 1e-6 of a cell
+  std::vector<double> cell;    ///< cell size, m; one value for all axes or one per axis
+};
+
+/// [time]: how far, and in what steps. Exactly one of end and steps.
+struct TimeInput : Located {
+  std::optional<double> end;          ///< s
+  std::optional<std::int64_t> steps;  ///< number of steps
+  std::optional<double> step;         ///< fixed time step, s; else from the Courant factor
+  double courant = 0.4;               ///< time step = courant * cell / wave speed (smallest over materials and axes)
+};
+
+/// [method]: the choices of the algorithm.
+struct MethodInput : Located {
+  StressUpdate stress_update = StressUpdate::usavg;
+  ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
+  ValueFunction damping;         ///< grid damping kappa of N03 Eq. 4, 1/s, may vary in time
+  std::vector<ValueFunction> body_force;  ///< acceleration b, m/s2, one per dimension or empty; uniform in space
+  enum class BoundaryOrder { contact_first, boundary_first } boundary_order = BoundaryOrder::contact_first;  ///< N13 / N03
+  enum class FixedForce { incremental, n13, zero } fixed_force = FixedForce::incremental;  ///< contact-consistency; N13 Eq. 1; N03
+  enum class LeavingParticle { error, remove } leaving_particle = LeavingParticle::error;
+};
+
+/// [contact]: how contact across cracks is found and enforced.
+struct ContactInput : Located {
+  enum class Scheme { consistent, literal } scheme = Scheme::consistent;
+  enum class Detection { displacement, volume } detection = Detection::displacement;
+  enum class Pairs { joint, sequential } pairs = Pairs::joint;  ///< all pairs of a node together, or N13's pairs one after another
+  double volume_separated = 0.9;  ///< V_sep of N03
+  double volume_contact = 1.1;    ///< V_contact of N03
+  bool require_approach = true;   ///< also above V_contact (N13); false: N03's normal sticking
+  enum class ReferenceVolume { cell, initial } reference_volume = ReferenceVolume::initial;
+  double mass_screen = 1e-6;      ///< pairs with a mass fraction below this are left alone
+};
+
+/// [[material]]: a named constitutive law.
+struct MaterialInput : Located {
+  std::string name;
+  MaterialSpec law;  ///< parameters of the chosen law (material/material.hpp)
+};
+
+/// [[body]]: a shape filled with particles, or particles from a file.
+struct BodyInput : Located {
+  std::string name;
+  std::string material;
+  ShapePtr shape;                        ///< either shape or particles
+  std::optional<std::string> particles;  ///< CSV file, relative to the input: x,y[,z],volume[,vx,vy[,vz]], SI
+  std::vector<std::int64_t> particles_per_cell{2};  ///< per direction; one value or one per axis; also the uGIMP particle size
+  bool match_mass = false;               ///< scale particle masses so that the body's mass is the shape's
+  double thickness = 1;                  ///< m, 2D only
+  std::vector<ValueFunction> velocity;   ///< initial, m/s, of position, one per dimension or empty
+  std::vector<double> spin;              ///< rad/s: one number in 2D, three in 3D, or empty
+  std::vector<double> spin_centre;       ///< m; default: the body's centre of mass
+};
+
+/// [[crack]]: a polyline, or an arc divided into segments. 2D.
+struct CrackInput : Located {
+  std::string name;
+  std::vector<std::vector<double>> points;  ///< m; at least two
+  struct Arc : Located {
+    std::vector<double> centre;  ///< m
+    double radius = 0;           ///< m
+    double from = 0, to = 0;     ///< rad, counter-clockwise positive; to < from runs clockwise
+    std::int64_t segments = 0;   ///< 0: segments of at most half a cell
+  };
+  std::optional<Arc> arc;
+  std::optional<double> max_segment;  ///< m; longer segments are divided evenly; default: half a cell
+  bool fixed = false;                 ///< fixed in space
+  ContactLawSpec contact;             ///< law between its faces (contact/law.hpp)
+};
+
+/// [[boundary]]: nodal velocity prescribed in a region.
+struct BoundaryInput : Located {
+  std::string name;
+  ShapePtr region;  ///< nodes in this region; boundaries are included within 1e-9 of a cell
+  std::optional<ValueFunction> vx, vy, vz;  ///< m/s; a component left out is free
+  double start = 0;                                          ///< s
+  double end = std::numeric_limits<double>::infinity();      ///< s
+};
+
+/// [[symmetry]]: a plane on a grid line.
+struct SymmetryInput : Located {
+  std::string name;
+  int axis = 0;               ///< 0, 1, 2 from "x", "y", "z": the normal
+  double at = 0;              ///< m, on a grid line
+  int side = 1;               ///< +1 ("above") when the body lies at larger coordinates, -1 ("below")
+  /// Part of the plane: bounds of the other coordinates, m. NaN: unbounded.
+  std::vector<double> from, to;  ///< one per dimension; the entry of `axis` is ignored
+};
+
+/// [[load]]: forces on particles.
+struct LoadInput : Located {
+  std::string name;
+  enum class Kind { total_force, force_each, traction, pressure } kind = Kind::total_force;
+  std::string body;               ///< restrict to this body; empty: all
+  ShapePtr region;                ///< particles initially in this region (traction, pressure: the face's cells lie in it)
+  std::vector<ValueFunction> value;  ///< N, N, Pa (per component); pressure: one, Pa. In t only
+  std::optional<std::string> face;   ///< traction, pressure: "x-", "x+", "y-", ... of the body's cells
+};
+
+/// [[probe]]: history columns at a place.
+struct ProbeInput : Located {
+  std::string name;
+  std::string quantity;              ///< as the particle output's names
+  std::vector<double> point;         ///< m: the particle nearest to it at the start
+  std::string body;                  ///< restrict to this body; empty: all
+};
+
+/// [output]
+struct OutputInput : Located {
+  std::optional<double> every;               ///< s between frames
+  std::optional<std::int64_t> every_steps;   ///< steps between frames
+  std::vector<double> times;                 ///< s, exact list
+  std::optional<double> history_every;       ///< s; default: at most 1000 rows
+  std::optional<std::int64_t> history_steps; ///< steps between history rows
+  std::vector<std::string> quantities;       ///< particle quantities; empty: the common ones
+  bool full_precision = false;               ///< float64 instead of float32
+  bool grid = false;                         ///< also write nodes
+};
+
+/// [[expect]]: a number the run must reproduce.
+struct ExpectInput : Located {
+  std::string name;
+  std::optional<std::string> column;    ///< of history.csv, without the unit
+  std::optional<std::string> quantity;  ///< of the particles, at `point`, in the last frame (or the one nearest `time`)
+  std::vector<double> point;            ///< m
+  std::optional<double> time;           ///< s; a history value there (linear between rows)
+  std::vector<double> range;            ///< s, two: the statistic over this range
+  enum class Statistic { value, minimum, maximum, mean, spread } statistic = Statistic::value;
+  double value = 0;      ///< SI
+  double tolerance = 0;  ///< absolute, SI; or
+  std::optional<double> relative;  ///< relative to |value|
+  std::string unit;      ///< for the table that is printed
+  std::string source;    ///< where the number comes from
+};
+
+/// A whole input file.
+struct Problem : Located {
+  std::string title;
+  std::string description;
+  Analysis analysis = Analysis::plane_strain;  ///< dimension 3 when three_dimensional
+  GridInput grid;
+  TimeInput time;
+  MethodInput method;
+  ContactInput contact;
+  std::vector<MaterialInput> materials;
+  std::vector<BodyInput> bodies;
+  std::vector<CrackInput> cracks;
+  std::vector<BoundaryInput> boundaries;
+  std::vector<SymmetryInput> symmetries;
+  std::vector<LoadInput> loads;
+  std::vector<ProbeInput> probes;
+  OutputInput output;
+  std::vector<ExpectInput> expects;
+  std::string source;     ///< the input text
+  std::string directory;  ///< files named in the input are relative to it
+
+  int dimension() const { return analysis == Analysis::three_dimensional ? 3 : 2; }
+};
+
+}  // namespace crampon

@@ -1,0 +1,46 @@
+#pragma once
+/// Snapshots of a run in plain arrays: what the writers and the pictures work from. Nothing here knows the engine.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace crampon {
+
+/// One quantity on particles, nodes or crack vertices: row-major, components values per item.
+/// Symmetric tensors have 6 components in the order xx, yy, zz, xy, yz, xz; vectors 3.
+struct Field {
+  std::string name;
+  std::string unit;
+  int components = 1;
+  std::vector<double> values;
+};
+
+/// A set of points (particles or nodes) with fields; points in the order of their ids, so that frames can be compared.
+struct PointFrame {
+  double time = 0;        ///< s
+  std::int64_t step = 0;
+  int dimension = 2;
+  std::vector<double> positions;  ///< 3 per point, m
+  std::vector<Field> fields;      ///< particles always have "id" and "body"
+  double cell = 0;                ///< grid spacing, m (largest axis), for drawing
+  std::vector<double> particle_size;  ///< edge lengths of an undeformed particle, 3 per point, m; may be empty (nodes)
+};
+
+/// All cracks at one time. Vertices of crack k are [begin[k], begin[k + 1]).
+struct CrackFrame {
+  double time = 0;
+  std::int64_t step = 0;
+  std::vector<std::string> names;
+  std::vector<std::int64_t> begin{0};
+  std::vector<double> plane, upper, lower;  ///< 3 per vertex, m: the crack plane and its two surfaces
+  std::vector<Field> fields;                ///< per vertex: "opening" and "sliding" (m), ...
+};
+
+/// One column of history.csv.
+struct HistoryColumn {
+  std::string name;  ///< "strain_energy", "momentum_x", "opening_max.crack1", "reaction_y.left", "probe.velocity_x"
+  std::string unit;
+};
+
+}  // namespace crampon

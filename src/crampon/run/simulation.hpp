@@ -1,0 +1,67 @@
+#pragma once
+/// A problem brought to life: the one door between the engine and everything around it (program, output, tests).
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "crampon/input/problem.hpp"
+#include "crampon/output/frame.hpp"
+
+namespace crampon {
+
+/// Wall seconds spent in one line of the time step since the start.
+struct PhaseTime {
+  std::string name;
+  double seconds = 0;
+};
+
+/// Size of a problem, known before it runs.
+struct SimulationSize {
+  std::int64_t particles = 0;
+  std::int64_t cells = 0;         ///< of the whole grid
+  std::int64_t active_cells = 0;  ///< in blocks that hold particles
+  std::int64_t cracks = 0, crack_segments = 0;
+  std::int64_t steps = 0;         ///< planned; estimated when the time step may change
+  double time_step = 0;           ///< s, first step
+  double memory_bytes = 0;        ///< estimate of the engine's arrays
+};
+
+class Simulation {
+ public:
+  /// Builds particles, cracks and grid. threads <= 0: all cores. Throws InputError for what only building can find
+  /// (empty body, particle or crack outside the grid).
+  static std::unique_ptr<Simulation> create(const Problem& problem, int threads = 0);
+  virtual ~Simulation() = default;
+
+  /// Advances by one time step. Throws RunError (NaN, particle out of the grid, inverted particle); the state before the step is
+  /// then no longer complete, but particles() still shows it for inspection.
+  /// longest: do not step further than this time (s), so that output times are hit exactly.
+  virtual void step(double longest) = 0;
+
+  virtual double time() const = 0;             ///< s
+  virtual std::int64_t steps_done() const = 0;
+  virtual bool finished() const = 0;           ///< the end time or the number of steps is reached
+  virtual double end_time() const = 0;         ///< s; estimated when only steps are given
+  virtual SimulationSize size() const = 0;
+
+  /// Names that particles() understands, in the order of the reference page.
+  virtual std::vector<std::string> particle_quantities() const = 0;
+  /// Empty list: the common ones.
+  virtual PointFrame particles(const std::vector<std::string>& quantities = {}) const = 0;
+  virtual CrackFrame cracks() const = 0;
+  /// Nodes with mass, momentum and force of each velocity field of the last step.
+  virtual PointFrame nodes() const = 0;
+
+  virtual std::vector<HistoryColumn> history_columns() const = 0;
+  virtual std::vector<double> history_row() const = 0;  ///< at the present time, SI, one value per column; the first column is the time
+
+  /// Hash of positions, velocities, stresses and crack vertices to the last bit: equal for any number of threads.
+  virtual std::uint64_t state_hash() const = 0;
+  virtual std::vector<PhaseTime> phases() const = 0;
+  /// Things worth telling the user once at the end ("3 nodes saw more than two cracks").
+  virtual std::vector<std::string> notes() const = 0;
+};
+
+}  // namespace crampon
