@@ -12,6 +12,7 @@
 
 #include "crampon/core/error.hpp"
 #include "crampon/core/function.hpp"
+#include "crampon/core/options.hpp"
 #include "crampon/core/vector.hpp"
 #include "crampon/contact/law.hpp"
 #include "crampon/geometry/shape.hpp"
@@ -20,8 +21,6 @@
 namespace crampon {
 
 enum class Analysis { plane_strain, plane_stress, three_dimensional };
-enum class ShapeFunctionKind { linear, gimp, bspline };
-enum class StressUpdate { usl, musl, usf, usavg };
 
 /// [grid]: uniform Cartesian background grid.
 struct GridInput : Located {
@@ -44,20 +43,27 @@ struct MethodInput : Located {
   ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
   ValueFunction damping;         ///< grid damping kappa of N03 Eq. 4, 1/s, may vary in time
   std::vector<ValueFunction> body_force;  ///< acceleration b, m/s2, one per dimension or empty; uniform in space
-  enum class BoundaryOrder { contact_first, boundary_first } boundary_order = BoundaryOrder::contact_first;  ///< N13 / N03
-  enum class FixedForce { incremental, n13, zero } fixed_force = FixedForce::incremental;  ///< contact-consistency; N13 Eq. 1; N03
-  enum class LeavingParticle { error, remove } leaving_particle = LeavingParticle::error;
+  using BoundaryOrder = crampon::BoundaryOrder;
+  using FixedForce = crampon::FixedForce;
+  using LeavingParticle = crampon::LeavingParticle;
+  BoundaryOrder boundary_order = BoundaryOrder::contact_first;
+  FixedForce fixed_force = FixedForce::incremental;
+  LeavingParticle leaving_particle = LeavingParticle::error;
 };
 
 /// [contact]: how contact across cracks is found and enforced.
 struct ContactInput : Located {
-  enum class Scheme { consistent, literal } scheme = Scheme::consistent;
-  enum class Detection { displacement, volume } detection = Detection::displacement;
-  enum class Pairs { joint, sequential } pairs = Pairs::joint;  ///< all pairs of a node together, or N13's pairs one after another
+  using Scheme = ContactScheme;
+  using Detection = ContactDetection;
+  using Pairs = ContactPairs;
+  using ReferenceVolume = crampon::ReferenceVolume;
+  Scheme scheme = Scheme::consistent;
+  Detection detection = Detection::displacement;
+  Pairs pairs = Pairs::joint;
   double volume_separated = 0.9;  ///< V_sep of N03
   double volume_contact = 1.1;    ///< V_contact of N03
   bool require_approach = true;   ///< also above V_contact (N13); false: N03's normal sticking
-  enum class ReferenceVolume { cell, initial } reference_volume = ReferenceVolume::initial;
+  ReferenceVolume reference_volume = ReferenceVolume::initial;
   double mass_screen = 1e-6;      ///< pairs with a mass fraction below this are left alone
 };
 
@@ -181,9 +187,13 @@ struct Problem : Located {
   OutputInput output;
   std::vector<ExpectInput> expects;
   std::string source;     ///< the input text
+  std::string resolved;   ///< the same with every default explicit, in SI, as TOML (write_resolved)
   std::string directory;  ///< files named in the input are relative to it
 
   int dimension() const { return analysis == Analysis::three_dimensional ? 3 : 2; }
 };
+
+/// All keys of an input file: what the parser, the schema and the reference page start from.
+const Declaration<Problem>& problem_declaration();
 
 }  // namespace crampon

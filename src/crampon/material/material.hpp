@@ -5,14 +5,20 @@
 #include <memory>
 
 #include "crampon/core/declaration.hpp"
+#include "crampon/material/material_law.hpp"
 
 namespace crampon {
 
-class MaterialLaw;  // material/material_law.hpp
 /// A law with its parameters, shared by all particles made of it.
 using MaterialSpec = std::shared_ptr<const MaterialLaw>;
 
 /// The family as the input sees it: `law = "neo_hookean"` and the law's own keys.
 Family<MaterialSpec>& materials();
+
+/// The one line by which a law joins the family.
+template <class Law>
+void add_material(Family<MaterialSpec>& family) {
+  family.add<Law>(Law::declaration(), [](Law law) -> MaterialSpec { return std::make_shared<LawKernel<Law>>(law); });
+}
 
 }  // namespace crampon

@@ -35,6 +35,7 @@ struct CrackFrame {
   std::vector<std::int64_t> begin{0};
   std::vector<double> plane, upper, lower;  ///< 3 per vertex, m: the crack plane and its two surfaces
   std::vector<Field> fields;                ///< per vertex: "opening" and "sliding" (m), ...
+  std::vector<double> original;             ///< 3 per vertex, m: where the vertex began, for drawing magnified; may be empty
 };
 
 /// One column of history.csv.

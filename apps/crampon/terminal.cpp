@@ -1,0 +1,84 @@
+#include "terminal.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+namespace crampon::app {
+
+bool is_terminal(std::FILE* stream) { return ::isatty(::fileno(stream)) == 1; }
+
+std::string styled(std::FILE* stream, Style style, std::string_view text) {
+  const char* no_color = std::getenv("NO_COLOR");
+  if (!is_terminal(stream) || (no_color != nullptr && *no_color != '\0')) return std::string(text);
+  const char* code = "0";
+  switch (style) {
+    case Style::bold: code = "1"; break;
+    case Style::red: code = "31"; break;
+    case Style::green: code = "32"; break;
+    case Style::yellow: code = "33"; break;
+    case Style::faint: code = "2"; break;
+  }
+  return fmt::format("\x1b[{}m{}\x1b[0m", code, text);
+}
+
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds)) return "?";
+  if (seconds < 1e-3) return fmt::format("{:.3g} us", seconds * 1e6);
+  if (seconds < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  const auto whole = static_cast<long long>(std::llround(seconds));
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string bytes_text(double bytes) {
+  const char* unit = "B";
+  for (const char* larger : {"kB", "MB", "GB", "TB"}) {
+    if (bytes < 1000) break;
+    bytes /= 1000;
+    unit = larger;
+  }
+  return fmt::format("{:.3g} {}", bytes, unit);
+}
+
+std::string count_text(double count) {
+  std::string digits = fmt::format("{:.0f}", count);
+  for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > (digits[0] == '-' ? 1 : 0); place -= 3)
+    digits.insert(static_cast<std::size_t>(place), " ");
+  return digits;
+}
+
+std::string ProgressLine::text(const Progress& p) const {
+  const double done = p.end_time > 0 ? std::min(1., p.time / p.end_time) : 1.;
+  const double left = done > 0 ? p.wall_seconds * (1 - done) / done : std::numeric_limits<double>::infinity();
+  const double rate = p.wall_seconds > 0 ? static_cast<double>(p.step) * static_cast<double>(p.particles) / p.wall_seconds : 0;
+  return fmt::format("{:3.0f} %  step {}  t = {:.4g} s of {:.4g} s  {} left  {:.2f} M particle-steps/s", std::floor(100 * done),
+                     count_text(static_cast<double>(p.step)), p.time, p.end_time, duration_text(left), rate * 1e-6);
+}
+
+void ProgressLine::show(const Progress& progress) {
+  const double interval = terminal_ ? 0.2 : 5;  // s: as often as one can read, and a log that stays short
+  const bool first = last_shown_ == 0;
+  // On a terminal a line at once shows that something happens; a log needs none for a run of a second.
+  if (progress.wall_seconds - last_shown_ < (terminal_ && first ? 0 : interval)) return;
+  last_shown_ = progress.wall_seconds;
+  if (terminal_) {
+    fmt::print(stderr, "\r{}\x1b[K", text(progress));
+    open_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", text(progress));
+  }
+  std::fflush(stderr);
+}
+
+void ProgressLine::finish() {
+  if (open_) fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+  open_ = false;
+}
+
+}  // namespace crampon::app

@@ -1,0 +1,25 @@
+# Installing: program, library with headers and `find_package(crampon)`, Debian package (cpack -G DEB).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/crampon)
+
+install(TARGETS crampon_program RUNTIME)
+install(TARGETS crampon EXPORT crampon_targets ARCHIVE INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY src/crampon DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(EXPORT crampon_targets NAMESPACE crampon:: DESTINATION ${_config_dir})
+configure_package_config_file(cmake/crampon-config.cmake.in crampon-config.cmake INSTALL_DESTINATION ${_config_dir})
+write_basic_package_version_file(crampon-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/crampon-config.cmake ${PROJECT_BINARY_DIR}/crampon-config-version.cmake DESTINATION ${_config_dir})
+install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.results" EXCLUDE)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME crampon)
+set(CPACK_PACKAGE_CONTACT "The Crampon authors <crampon@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Explicit material point method for solids with explicit cracks")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+# What a program that links the library needs; the program itself needs only what SHLIBDEPS finds.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, libfmt-dev, libtomlplusplus-dev, libmuparser-dev, libpng-dev, zlib1g-dev, libcairo2-dev, libudunits2-dev, nlohmann-json3-dev")
+include(CPack)

@@ -1,0 +1,57 @@
+#pragma once
+/// What a contact remembers from one step to the next: open, slip or stick (contact-consistency.md).
+
+#include <algorithm>
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "crampon/state/layers.hpp"
+
+namespace crampon {
+
+enum class ContactState : std::uint8_t { open, slip, stick };
+
+/// A contact, named by what does not change when a crack drifts across the node: the node, the crack and the other cracks that
+/// separate the pair from the node.
+struct ContactKey {
+  std::int64_t node = 0;
+  CrackId crack = 0;
+  Signature others;
+  auto operator<=>(const ContactKey&) const = default;
+};
+
+/// On which side of a crack a node lay.
+struct NodeSide {
+  std::int64_t node = 0;
+  CrackId crack = 0;
+  std::int8_t side = 0;  ///< of the particles across: +1 above, -1 below
+  auto key() const { return std::pair{node, crack}; }
+};
+
+/// Sorted by key; entries that are not there were open.
+struct ContactMemory {
+  struct Entry {
+    ContactKey key;
+    ContactState state = ContactState::open;
+  };
+  std::vector<Entry> entries;
+  std::vector<NodeSide> sides;
+
+  ContactState find(const ContactKey& key) const {
+    const auto at = std::lower_bound(entries.begin(), entries.end(), key, [](const Entry& e, const ContactKey& k) { return e.key < k; });
+    return at != entries.end() && at->key == key ? at->state : ContactState::open;
+  }
+  /// 0 when the node was not beside the crack.
+  std::int8_t side(std::int64_t node, CrackId crack) const {
+    const std::pair key{node, crack};
+    const auto at = std::lower_bound(sides.begin(), sides.end(), key, [](const NodeSide& s, const auto& k) { return s.key() < k; });
+    return at != sides.end() && at->key() == key ? at->side : std::int8_t{0};
+  }
+  void sort() {
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.key < b.key; });
+    std::sort(sides.begin(), sides.end(), [](const NodeSide& a, const NodeSide& b) { return a.key() < b.key(); });
+  }
+};
+
+}  // namespace crampon

@@ -1,0 +1,96 @@
+#pragma once
+/// Four doubles side by side: the lanes of the particle loops (over particles for weights and stress, over components for nodal records).
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#if defined(__FMA__) && defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+namespace crampon {
+
+using Pack = double __attribute__((vector_size(32)));
+using Pair = double __attribute__((vector_size(16)));
+using Index4 = long long __attribute__((vector_size(32)));
+inline constexpr int lanes = 4;
+
+/// A vector at a node: (x, y) in 2D, (x, y, z, 0) in 3D.
+template <int Dim>
+struct NodalVectorOf;
+template <>
+struct NodalVectorOf<2> {
+  using type = Pair;
+};
+template <>
+struct NodalVectorOf<3> {
+  using type = Pack;
+};
+template <int Dim>
+using NodalVector = typename NodalVectorOf<Dim>::type;
+
+inline Pack splat(double a) { return Pack{a, a, a, a}; }
+
+template <class V>
+inline V splat_as(double a) {
+  if constexpr (sizeof(V) == sizeof(Pair)) {
+    return Pair{a, a};
+  } else {
+    return Pack{a, a, a, a};
+  }
+}
+
+// Fused multiply-add is written out so that compilers cannot choose for themselves (the build sets -ffp-contract=off).
+#if defined(__FMA__) && defined(__AVX2__)
+inline Pack fused(Pack a, Pack b, Pack c) { return _mm256_fmadd_pd(a, b, c); }
+inline Pair fused(Pair a, Pair b, Pair c) { return _mm_fmadd_pd(a, b, c); }
+#else
+inline Pack fused(Pack a, Pack b, Pack c) { return a * b + c; }
+inline Pair fused(Pair a, Pair b, Pair c) { return a * b + c; }
+#endif
+
+inline Pack lane_min(Pack a, Pack b) { return a < b ? a : b; }
+inline Pack lane_max(Pack a, Pack b) { return a > b ? a : b; }
+
+inline Pack lane_floor(Pack a) {
+#if defined(__AVX2__)
+  return _mm256_floor_pd(a);
+#else
+  return Pack{std::floor(a[0]), std::floor(a[1]), std::floor(a[2]), std::floor(a[3])};
+#endif
+}
+
+inline Pack lane_sqrt(Pack a) {
+#if defined(__AVX2__)
+  return _mm256_sqrt_pd(a);
+#else
+  return Pack{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+#endif
+}
+
+inline Pack lane_log(Pack a) { return Pack{std::log(a[0]), std::log(a[1]), std::log(a[2]), std::log(a[3])}; }
+
+/// Rows become columns: afterwards row l holds what lane l of each row was.
+inline void transpose(Pack& a, Pack& b, Pack& c, Pack& d) {
+  const Pack t0 = __builtin_shuffle(a, b, Index4{0, 4, 2, 6});
+  const Pack t1 = __builtin_shuffle(a, b, Index4{1, 5, 3, 7});
+  const Pack t2 = __builtin_shuffle(c, d, Index4{0, 4, 2, 6});
+  const Pack t3 = __builtin_shuffle(c, d, Index4{1, 5, 3, 7});
+  a = __builtin_shuffle(t0, t2, Index4{0, 1, 4, 5});
+  b = __builtin_shuffle(t1, t3, Index4{0, 1, 4, 5});
+  c = __builtin_shuffle(t0, t2, Index4{2, 3, 6, 7});
+  d = __builtin_shuffle(t1, t3, Index4{2, 3, 6, 7});
+}
+
+/// The first components of a record as a nodal vector.
+template <int Dim>
+inline NodalVector<Dim> leading(Pack record) {
+  if constexpr (Dim == 2) {
+    return Pair{record[0], record[1]};
+  } else {
+    return Pack{record[0], record[1], record[2], 0.};
+  }
+}
+
+}  // namespace crampon

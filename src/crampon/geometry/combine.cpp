@@ -1,0 +1,80 @@
+#include "crampon/geometry/combine.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace crampon {
+namespace {
+int dimension_of(const std::vector<ShapePtr>& parts) {
+  int dimension = 0;
+  for (const ShapePtr& part : parts) dimension = std::max(dimension, part->dimension());
+  return dimension;
+}
+}  // namespace
+
+Union::Union(std::vector<ShapePtr> parts) : parts_(std::move(parts)) {}
+
+double Union::distance(const Vec<3>& x) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const ShapePtr& part : parts_) nearest = std::min(nearest, part->distance(x));
+  return nearest;
+}
+
+bool Union::contains(const Vec<3>& x, double slack) const {
+  return std::any_of(parts_.begin(), parts_.end(), [&](const ShapePtr& part) { return part->contains(x, slack); });
+}
+
+Bounds3 Union::bounds() const {
+  Bounds3 box = parts_.front()->bounds();
+  for (const ShapePtr& part : parts_) {
+    const Bounds3 other = part->bounds();
+    for (int k = 0; k < 3; ++k) {
+      box.low[k] = std::min(box.low[k], other.low[k]);
+      box.high[k] = std::max(box.high[k], other.high[k]);
+    }
+  }
+  return box;
+}
+
+std::optional<double> Union::measure() const { return parts_.size() == 1 ? parts_.front()->measure() : std::nullopt; }
+int Union::dimension() const { return dimension_of(parts_); }
+
+Intersection::Intersection(std::vector<ShapePtr> parts) : parts_(std::move(parts)) {}
+
+double Intersection::distance(const Vec<3>& x) const {
+  double furthest = -std::numeric_limits<double>::infinity();
+  for (const ShapePtr& part : parts_) furthest = std::max(furthest, part->distance(x));
+  return furthest;
+}
+
+bool Intersection::contains(const Vec<3>& x, double slack) const {
+  return std::all_of(parts_.begin(), parts_.end(), [&](const ShapePtr& part) { return part->contains(x, slack); });
+}
+
+Bounds3 Intersection::bounds() const {
+  Bounds3 box = parts_.front()->bounds();
+  for (const ShapePtr& part : parts_) {
+    const Bounds3 other = part->bounds();
+    for (int k = 0; k < 3; ++k) {
+      box.low[k] = std::max(box.low[k], other.low[k]);
+      box.high[k] = std::min(box.high[k], other.high[k]);
+    }
+  }
+  return box;
+}
+
+std::optional<double> Intersection::measure() const { return parts_.size() == 1 ? parts_.front()->measure() : std::nullopt; }
+int Intersection::dimension() const { return dimension_of(parts_); }
+
+Difference::Difference(ShapePtr whole, std::vector<ShapePtr> taken_away) : whole_(std::move(whole)), taken_away_(std::move(taken_away)) {}
+
+double Difference::distance(const Vec<3>& x) const {
+  double furthest = whole_->distance(x);
+  for (const ShapePtr& part : taken_away_) furthest = std::max(furthest, -part->distance(x));
+  return furthest;
+}
+
+int Difference::dimension() const { return std::max(whole_->dimension(), dimension_of(taken_away_)); }
+
+}  // namespace crampon

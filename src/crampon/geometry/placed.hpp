@@ -1,0 +1,45 @@
+#pragma once
+/// Shapes turned and shifted.
+
+#include <array>
+
+#include "crampon/geometry/shape.hpp"
+
+namespace crampon {
+
+/// A shape turned about an axis through a point (2D: about the point, counter-clockwise). Quarter turns about coordinate axes are exact.
+class Rotated final : public Shape {
+ public:
+  /// angle in rad, right-handed about `axis` (any length but zero); about: point on the axis, m.
+  Rotated(ShapePtr shape, double angle, const Vec<3>& about, const Vec<3>& axis = {{0, 0, 1}});
+  double distance(const Vec<3>& x) const override { return shape_->distance(turn_back(x)); }
+  bool contains(const Vec<3>& x, double slack = 0) const override { return shape_->contains(turn_back(x), slack); }
+  Bounds3 bounds() const override;
+  std::optional<double> measure() const override;
+  int dimension() const override;
+
+ private:
+  Vec<3> turn_back(const Vec<3>& x) const;
+  ShapePtr shape_;
+  Vec<3> about_;
+  std::array<Vec<3>, 3> columns_;  // of the rotation matrix
+  bool in_plane_;                  // about the z axis
+};
+
+/// A shape shifted by a vector.
+class Translated final : public Shape {
+ public:
+  /// by: m
+  Translated(ShapePtr shape, const Vec<3>& by);
+  double distance(const Vec<3>& x) const override { return shape_->distance(x - by_); }
+  bool contains(const Vec<3>& x, double slack = 0) const override { return shape_->contains(x - by_, slack); }
+  Bounds3 bounds() const override;
+  std::optional<double> measure() const override { return shape_->measure(); }
+  int dimension() const override { return shape_->dimension(); }
+
+ private:
+  ShapePtr shape_;
+  Vec<3> by_;
+};
+
+}  // namespace crampon

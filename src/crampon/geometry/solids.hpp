@@ -1,0 +1,29 @@
+#pragma once
+/// Round solids: sphere and cylinder.
+
+#include "crampon/geometry/shape.hpp"
+
+namespace crampon {
+
+struct Sphere final : Shape {
+  Vec<3> centre;  ///< m
+  double radius;  ///< m
+  Sphere(const Vec<3>& centre_, double radius_) : centre(centre_), radius(radius_) {}
+  double distance(const Vec<3>& x) const override { return norm(x - centre) - radius; }
+  Bounds3 bounds() const override;
+  std::optional<double> measure() const override;
+  int dimension() const override { return 3; }
+};
+
+/// Right circular cylinder between the centres of its two flat ends.
+struct Cylinder final : Shape {
+  Vec<3> from, to;  ///< m
+  double radius;    ///< m
+  Cylinder(const Vec<3>& from_, const Vec<3>& to_, double radius_) : from(from_), to(to_), radius(radius_) {}
+  double distance(const Vec<3>& x) const override;
+  Bounds3 bounds() const override;
+  std::optional<double> measure() const override;
+  int dimension() const override { return 3; }
+};
+
+}  // namespace crampon

@@ -1,0 +1,244 @@
+#include "crampon/input/check_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "crampon/core/closest_name.hpp"
+#include "crampon/core/units.hpp"
+#include "crampon/geometry/arc.hpp"
+
+namespace crampon {
+namespace {
+
+// Coordinates that are meant to lie on a grid line or on the grid's edge may miss it by the round-off of their decimal
+// numbers; problem.hpp promises 1e-6 of a cell.
+constexpr double slack_cells = 1e-6;
+// Cell indices are 32-bit in the engine; half of that leaves room for stencils and block margins.
+constexpr double most_cells = 1 << 30;
+
+class ProblemChecker {
+ public:
+  ProblemChecker(const Problem& problem, Diagnostics& diagnostics) : problem_(problem), diagnostics_(diagnostics) {
+    for (const Diagnostic& d : diagnostics.list()) broken_.push_back(d.location.where);
+  }
+
+  void run() {
+    if (broken("analysis")) return;
+    if (!broken("grid")) check_grid();
+    if (!broken("method")) check_length(problem_.method, "body_force", problem_.method.body_force.size());
+    for (std::size_t k = 0; k < problem_.bodies.size(); ++k) check_body(problem_.bodies[k]);
+    for (const CrackInput& crack : problem_.cracks) check_crack(crack);
+    for (const BoundaryInput& boundary : problem_.boundaries) check_boundary(boundary);
+    for (const SymmetryInput& symmetry : problem_.symmetries) check_symmetry(symmetry);
+    for (const LoadInput& load : problem_.loads) check_load(load);
+    for (const ProbeInput& probe : problem_.probes) check_probe(probe);
+    if (!broken("output") && !broken("time")) check_output();
+    for (const ExpectInput& expect : problem_.expects) check_expect(expect);
+  }
+
+ private:
+  const Problem& problem_;
+  Diagnostics& diagnostics_;
+  std::vector<std::string> broken_;  // where earlier errors stand
+  bool grid_known_ = false;
+
+  bool broken(const std::string& where) const {
+    return std::any_of(broken_.begin(), broken_.end(), [&](const std::string& b) {
+      return b.starts_with(where) && (b.size() == where.size() || b[where.size()] == '.' || b[where.size()] == '[');
+    });
+  }
+  bool broken(const Located& record) const { return broken(record.location.where); }
+  std::size_t dimension() const { return static_cast<std::size_t>(problem_.dimension()); }
+  std::string words() const { return fmt::format("the problem has {} dimensions", dimension()); }
+
+  void add(const Located& record, const std::string& key, std::string what, std::string why, std::string remedy) {
+    diagnostics_.add(record.at(key), std::move(what), std::move(why), std::move(remedy));
+  }
+
+  // A list with one value per dimension, or empty.
+  bool check_length(const Located& record, const std::string& key, std::size_t length) {
+    if (length == 0 || length == dimension()) return true;
+    add(record, key, fmt::format("{} values", length), words(), fmt::format("give {}", dimension()));
+    return false;
+  }
+
+  double cell(std::size_t axis) const { return problem_.grid.cell[problem_.grid.cell.size() == 1 ? 0 : axis]; }
+  double slack(std::size_t axis) const { return slack_cells * cell(axis); }
+
+  void check_grid() {
+    const GridInput& g = problem_.grid;
+    if (g.origin.empty() || g.size.empty() || g.cell.empty()) return;  // [grid] is missing: told already
+    const bool origin = check_length(g, "origin", g.origin.size()), size = check_length(g, "size", g.size.size());
+    const bool cells = g.cell.size() == 1 || check_length(g, "cell", g.cell.size());
+    if (!origin || !size || !cells) return;
+    grid_known_ = true;
+    for (std::size_t k = 0; k < dimension(); ++k) {
+      const double count = g.size[k] / cell(k);
+      const std::string key = fmt::format("size[{}]", k);
+      if (count > most_cells) {
+        add(g, key, fmt::format("{:.3g} cells along {}", count, "xyz"[k]), "no more than 2^30 can be counted", "use a larger cell");
+        grid_known_ = false;
+      } else if (std::abs(count - std::round(count)) > slack_cells || std::round(count) < 1) {
+        add(g, key, fmt::format("the size along {} is {:.9g} cells", "xyz"[k], count), "it must be a whole number of cells",
+            fmt::format("make it {:.9g} m", std::max(1., std::round(count)) * cell(k)));
+      }
+    }
+  }
+
+  bool in_grid(const std::vector<double>& x) const {
+    for (std::size_t k = 0; k < dimension(); ++k)
+      if (x[k] < problem_.grid.origin[k] - slack(k) || x[k] > problem_.grid.origin[k] + problem_.grid.size[k] + slack(k)) return false;
+    return true;
+  }
+  std::string grid_text() const {
+    std::string out = "the grid reaches from (";
+    for (std::size_t k = 0; k < dimension(); ++k) out += fmt::format("{}{:g}", k ? ", " : "", problem_.grid.origin[k]);
+    out += ") to (";
+    for (std::size_t k = 0; k < dimension(); ++k) out += fmt::format("{}{:g}", k ? ", " : "", problem_.grid.origin[k] + problem_.grid.size[k]);
+    return out + ") m";
+  }
+
+  template <class Named>
+  void check_reference(const Located& record, const std::string& key, const std::string& name, const std::vector<Named>& list,
+                       const std::string& kind) {
+    std::vector<std::string> names;
+    for (const Named& item : list) names.push_back(item.name);
+    if (name.empty() || list.empty() || std::find(names.begin(), names.end(), name) != names.end()) return;
+    // A name that could not be read may be the one that is meant.
+    for (std::size_t k = 0; k < list.size(); ++k)
+      if (broken(fmt::format("{}[{}].name", kind, k)) || broken(list[k].location.where + ".name") || names[k].empty()) return;
+    add(record, key, fmt::format("there is no {} \"{}\"", kind, name), fmt::format("it is the name of a [[{}]]", kind),
+        suggest_from(name, names));
+  }
+
+  void check_shape(const Located& record, const std::string& key, const ShapePtr& shape) {
+    if (!shape || shape->dimension() == 0 || shape->dimension() == problem_.dimension()) return;
+    if (shape->dimension() == 3)
+      add(record, key, "a shape in space", words(), "use a plane shape");
+  }
+
+  void check_body(const BodyInput& body) {
+    check_reference(body, "material", body.material, problem_.materials, "material");
+    if (broken(body)) return;
+    check_shape(body, "shape", body.shape);
+    check_length(body, "velocity", body.velocity.size());
+    check_length(body, "spin_centre", body.spin_centre.size());
+    const std::size_t turns = dimension() == 2 ? 1 : 3;
+    if (!body.spin.empty() && body.spin.size() != turns)
+      add(body, "spin", fmt::format("{} values", body.spin.size()), words(), fmt::format("give {}", turns));
+    if (body.particles_per_cell.size() > 1) check_length(body, "particles_per_cell", body.particles_per_cell.size());
+    if (dimension() == 3 && body.thickness != 1)
+      add(body, "thickness", "a body in space has no thickness", words(), "remove thickness");
+  }
+
+  void check_crack(const CrackInput& crack) {
+    if (broken(crack)) return;
+    if (dimension() == 3) {
+      add(crack, "", "a crack in three dimensions", "cracks are lines in the plane", "remove it, or choose a plane analysis");
+      return;
+    }
+    if (!grid_known_) return;
+    for (std::size_t k = 0; k < crack.points.size(); ++k)
+      if (!in_grid(crack.points[k]))
+        add(crack, fmt::format("points[{}]", k), fmt::format("the point ({:g}, {:g}) m is outside the grid", crack.points[k][0], crack.points[k][1]),
+            grid_text(), "move the point or enlarge the grid");
+    if (crack.arc) check_arc(*crack.arc);
+  }
+
+  void check_arc(const CrackInput::Arc& arc) {
+    const Vec<2> centre{{arc.centre[0], arc.centre[1]}};
+    // Degrees: fine enough to see what leaves the grid, independent of the segments chosen later.
+    for (const Vec<2>& x : divide_arc(centre, arc.radius, arc.from, arc.to, 360))
+      if (!in_grid({x[0], x[1]})) {
+        add(arc, "", fmt::format("the arc leaves the grid at ({:g}, {:g}) m", x[0], x[1]), grid_text(), "move the arc or enlarge the grid");
+        return;
+      }
+  }
+
+  void check_boundary(const BoundaryInput& boundary) {
+    if (broken(boundary)) return;
+    check_shape(boundary, "region", boundary.region);
+    if (dimension() == 2 && boundary.vz) add(boundary, "vz", "vz is given", words(), "remove it");
+  }
+
+  void check_symmetry(const SymmetryInput& symmetry) {
+    if (broken(symmetry)) return;
+    const std::size_t axis = static_cast<std::size_t>(symmetry.axis);
+    if (axis >= dimension()) {
+      add(symmetry, "axis", "a plane normal to z", words(), "choose x or y");
+      return;
+    }
+    const bool from = check_length(symmetry, "from", symmetry.from.size()), to = check_length(symmetry, "to", symmetry.to.size());
+    if (from && to && !symmetry.from.empty() && !symmetry.to.empty())
+      for (std::size_t k = 0; k < dimension(); ++k)
+        if (k != axis && !(symmetry.to[k] > symmetry.from[k]))
+          add(symmetry, fmt::format("to[{}]", k), fmt::format("the part is empty along {}", "xyz"[k]),
+              fmt::format("from {:g} m to {:g} m", symmetry.from[k], symmetry.to[k]), "correct from and to");
+    if (!grid_known_) return;
+    const double lines = (symmetry.at - problem_.grid.origin[axis]) / cell(axis), last = problem_.grid.size[axis] / cell(axis);
+    if (lines < -slack_cells || lines > last + slack_cells) {
+      add(symmetry, "at", fmt::format("the plane at {:g} m is outside the grid", symmetry.at), grid_text(), "move the plane or enlarge the grid");
+    } else if (std::abs(lines - std::round(lines)) > slack_cells) {
+      add(symmetry, "at", fmt::format("the plane at {:.9g} m is on no grid line", symmetry.at), "a mirror plane is made of nodes",
+          fmt::format("the nearest one is at {:.9g} m", problem_.grid.origin[axis] + std::round(lines) * cell(axis)));
+    }
+  }
+
+  void check_load(const LoadInput& load) {
+    check_reference(load, "body", load.body, problem_.bodies, "body");
+    if (broken(load)) return;
+    check_shape(load, "region", load.region);
+    if (load.kind == LoadInput::Kind::pressure) {
+      if (load.value.size() != 1)
+        add(load, "value", fmt::format("{} values", load.value.size()), "pressure acts along the normal of the face", "give one");
+    } else {
+      check_length(load, "value", load.value.size());
+    }
+    if (dimension() == 2 && load.face && load.face->front() == 'z') add(load, "face", "a face normal to z", words(), "choose a face normal to x or y");
+  }
+
+  void check_point(const Located& record, const std::vector<double>& point) {
+    if (point.empty() || !check_length(record, "point", point.size()) || !grid_known_ || in_grid(point)) return;
+    add(record, "point", "the point is outside the grid", grid_text(), "move the point");
+  }
+
+  void check_probe(const ProbeInput& probe) {
+    check_reference(probe, "body", probe.body, problem_.bodies, "body");
+    if (!broken(probe)) check_point(probe, probe.point);
+  }
+
+  // A time beyond the end of the run, where that is known.
+  void check_time(const Located& record, const std::string& key, double time) {
+    const auto& end = problem_.time.end;
+    if (end && time > *end * (1 + 1e-12))  // decimal round-off of equal times in different units
+      add(record, key, fmt::format("{:g} s is after the end of the run", time), fmt::format("it ends at {:g} s", *end), "correct the time");
+  }
+
+  void check_output() {
+    const OutputInput& output = problem_.output;
+    for (std::size_t k = 0; k < output.times.size(); ++k) check_time(output, fmt::format("times[{}]", k), output.times[k]);
+  }
+
+  void check_expect(const ExpectInput& expect) {
+    if (broken(expect)) return;
+    check_point(expect, expect.point);
+    if (!expect.unit.empty()) {
+      try {
+        unit_factor(expect.unit, "any");
+      } catch (const UnitError& error) {
+        add(expect, "unit", error.what, "it is printed beside the value", "correct the unit");
+      }
+    }
+    if (broken("time")) return;
+    if (expect.time) check_time(expect, "time", *expect.time);
+    for (std::size_t k = 0; k < expect.range.size(); ++k) check_time(expect, fmt::format("range[{}]", k), expect.range[k]);
+  }
+};
+
+}  // namespace
+
+void check_problem(const Problem& problem, Diagnostics& diagnostics) { ProblemChecker(problem, diagnostics).run(); }
+
+}  // namespace crampon

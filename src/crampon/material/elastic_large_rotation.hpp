@@ -1,0 +1,98 @@
+#pragma once
+#include "crampon/core/declaration.hpp"
+#include "crampon/material/deformation.hpp"
+#include "crampon/material/elastic_constants.hpp"
+
+namespace crampon {
+
+/// Isotropic elasticity, small strain with exact large rotation: sigma = R (C : (U - I)) R^T with F = R U, the Cauchy stress
+/// (kinematics.md 5). It is found from F at once, so nothing drifts.
+struct ElasticLargeRotation {
+  double E = 0;        ///< Young's modulus, Pa
+  double nu = 0;       ///< Poisson's ratio
+  double density = 0;  ///< kg/m3
+
+  static constexpr const char* name = "elastic_large_rotation";
+  static const Declaration<ElasticLargeRotation>& declaration();
+  static constexpr bool wave_speed_changes = false;
+  template <int Dim>
+  static constexpr int history_size = deformation_size<Dim>;
+
+  double wave_speed(StressState s) const { return ElasticConstants(E, nu).wave_speed(s, density); }
+  template <int Dim>
+  static void initialise(Pack* F) {
+    initialise_deformation<Dim>(F);
+  }
+
+  /// Biot strain U - I = {xx, yy, xy, zz} or {xx, yy, zz, xy, yz, xz}, and the rotation.
+  template <int Dim>
+  void stretch(const Pack* F, Pack* R, Pack* e) const {
+    rotation_of(F, R, Dim);
+    if constexpr (Dim == 2) {
+      e[0] = R[0] * F[0] + R[2] * F[2] - 1.;
+      e[1] = R[1] * F[1] + R[3] * F[3] - 1.;
+      e[2] = R[0] * F[1] + R[2] * F[3];
+      e[3] = F[4] - 1.;
+    } else {
+      const auto U = [&](int i, int j) { return R[i] * F[j] + R[3 + i] * F[3 + j] + R[6 + i] * F[6 + j]; };
+      e[0] = U(0, 0) - 1., e[1] = U(1, 1) - 1., e[2] = U(2, 2) - 1.;
+      e[3] = U(0, 1), e[4] = U(1, 2), e[5] = U(0, 2);
+    }
+  }
+
+  template <int Dim, StressState S>
+  Pack update(const Pack* L, double dt, Pack* stress, Pack* F) const {
+    const ElasticConstants c(E, nu);
+    const Pack mu2 = splat(2 * c.mu);
+    advance_deformation<Dim>(L, dt, F);
+    Pack R[Dim * Dim], e[stress_size<Dim>];
+    stretch<Dim>(F, R, e);
+    if constexpr (Dim == 2) {
+      if constexpr (S == StressState::plane_stress) F[4] = 1. - nu / (1 - nu) * (e[0] + e[1]);
+      const Pack J = volume_ratio_of<2>(F), pressure = splat(c.plane_lambda(S)) * (e[0] + e[1]);
+      const Pack txx = J * fused(mu2, e[0], pressure), tyy = J * fused(mu2, e[1], pressure), txy = J * mu2 * e[2];
+      const Pack cc = R[0] * R[0], ss = R[2] * R[2], cs = R[0] * R[2];
+      stress[0] = cc * txx - 2. * cs * txy + ss * tyy;
+      stress[1] = ss * txx + 2. * cs * txy + cc * tyy;
+      stress[2] = cs * (txx - tyy) + (cc - ss) * txy;
+      stress[3] = S == StressState::plane_stress ? splat(0.) : J * pressure;
+      return J;
+    } else {
+      const Pack J = volume_ratio_of<3>(F), pressure = splat(c.lambda) * (e[0] + e[1] + e[2]);
+      Pack T[9];  // J times the stress in the unrotated frame
+      T[0] = J * fused(mu2, e[0], pressure), T[4] = J * fused(mu2, e[1], pressure), T[8] = J * fused(mu2, e[2], pressure);
+      T[1] = T[3] = J * mu2 * e[3], T[5] = T[7] = J * mu2 * e[4], T[2] = T[6] = J * mu2 * e[5];
+      Pack RT[9];
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) RT[3 * i + j] = R[3 * i] * T[j] + R[3 * i + 1] * T[3 + j] + R[3 * i + 2] * T[6 + j];
+      }
+      const auto turned = [&](int i, int j) { return RT[3 * i] * R[3 * j] + RT[3 * i + 1] * R[3 * j + 1] + RT[3 * i + 2] * R[3 * j + 2]; };
+      stress[0] = turned(0, 0), stress[1] = turned(1, 1), stress[2] = turned(2, 2);
+      stress[3] = turned(0, 1), stress[4] = turned(1, 2), stress[5] = turned(0, 2);
+      return J;
+    }
+  }
+
+  template <int Dim, StressState S>
+  PackReport report(const Pack* /*stress*/, const Pack* F) const {
+    const ElasticConstants c(E, nu);
+    PackReport r{};
+    Pack R[Dim * Dim], e[stress_size<Dim>];
+    stretch<Dim>(F, R, e);
+    r.volume_ratio = volume_ratio_of<Dim>(F);
+    r.to_cauchy = 1. / r.volume_ratio;
+    const int n = Dim == 2 ? 2 : 3;  // in 2D nothing works through the thickness
+    Pack trace = splat(0.), squares = splat(0.);
+    for (int k = 0; k < n; ++k) trace += e[k], squares = fused(e[k], e[k], squares);
+    for (int k = n; k < (Dim == 2 ? 3 : 6); ++k) squares = fused(2. * e[k], e[k], squares);
+    r.energy = 0.5 * c.plane_lambda(S) * trace * trace + c.mu * squares;
+    if constexpr (Dim == 2) {
+      r.strain[0] = e[0], r.strain[1] = e[1], r.strain[2] = e[3], r.strain[3] = e[2];
+    } else {
+      for (int k = 0; k < 6; ++k) r.strain[k] = e[k];
+    }
+    return r;
+  }
+};
+
+}  // namespace crampon

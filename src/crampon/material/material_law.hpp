@@ -1,0 +1,113 @@
+#pragma once
+/// What the time step asks of a constitutive law. Calls are made per batch of packs, never per particle, so that they cost nothing
+/// (docs/decisions/0004-material-dispatch.md).
+
+#include <cstddef>
+#include <string>
+
+#include "crampon/core/pack.hpp"
+#include "crampon/state/particles.hpp"
+
+namespace crampon {
+
+/// Stress state of the model: 2D is plane strain or plane stress.
+enum class StressState { plane_strain, plane_stress, three_dimensional };
+
+/// Some consecutive packs of one material. L: velocity gradient L[d * Dim + k] = dv_d/dx_k, 1/s, Dim * Dim Packs per pack.
+template <int Dim>
+struct StressBatch {
+  int packs = 0;
+  double dt = 0;            ///< s, time over which L acts
+  const Pack* L = nullptr;  ///< [pack][Dim * Dim]
+  Pack* stress = nullptr;   ///< [pack][stress_size]
+  Pack* history = nullptr;  ///< [pack][history stride]
+  int history_stride = 0;
+};
+
+/// Quantities of one pack derived from its stress and history.
+struct PackReport {
+  Pack energy;        ///< strain energy per initial volume, J/m3
+  Pack volume_ratio;  ///< V/V0
+  Pack to_cauchy;     ///< stored stress times this is the Cauchy stress
+  Pack strain[6];     ///< xx, yy, zz, xy, yz, xz of the law's own strain measure
+};
+
+class MaterialLaw {
+ public:
+  virtual ~MaterialLaw() = default;
+  virtual std::string name() const = 0;
+  virtual double density() const = 0;                     ///< kg/m3, initial
+  virtual double wave_speed(StressState) const = 0;       ///< m/s, fastest, undeformed
+  virtual int history_size(int dimension) const = 0;      ///< Packs per pack
+  /// Can the wave speed change as the body deforms (so that the time step must be watched)?
+  virtual bool wave_speed_changes() const = 0;
+  virtual Pack wave_speed(StressState, int dimension, const Pack* stress, const Pack* history) const = 0;
+
+  virtual void initialise(int dimension, Pack* stress, Pack* history) const = 0;
+  /// Advances stress and history. False when a particle turned inside out (volume ratio <= 0) or its numbers went bad.
+  virtual bool update(StressState, const StressBatch<2>&) const = 0;
+  virtual bool update(StressState, const StressBatch<3>&) const = 0;
+  virtual PackReport report(StressState, int dimension, const Pack* stress, const Pack* history) const = 0;
+};
+
+inline bool all_positive(Pack a) { return a[0] > 0 && a[1] > 0 && a[2] > 0 && a[3] > 0; }
+
+/// Makes a law of a plain struct. The struct provides
+///   density(), wave_speed(StressState); static constexpr bool wave_speed_changes;
+///   template <int Dim> static constexpr int history_size;
+///   template <int Dim> static void initialise(Pack* history);
+///   template <int Dim, StressState> Pack update(const Pack* L, double dt, Pack* stress, Pack* history) const  -> V/V0
+///   template <int Dim, StressState> PackReport report(const Pack* stress, const Pack* history) const
+///   template <int Dim, StressState> Pack present_wave_speed(stress, history) const      (only if wave_speed_changes).
+template <class Law>
+class LawKernel final : public MaterialLaw {
+ public:
+  explicit LawKernel(const Law& law) : law_(law) {}
+  std::string name() const override { return Law::name; }
+  double density() const override { return law_.density; }
+  double wave_speed(StressState s) const override { return law_.wave_speed(s); }
+  int history_size(int dimension) const override {
+    return dimension == 2 ? Law::template history_size<2> : Law::template history_size<3>;
+  }
+  bool wave_speed_changes() const override { return Law::wave_speed_changes; }
+  Pack wave_speed(StressState s, int dimension, const Pack* stress, const Pack* history) const override {
+    if constexpr (Law::wave_speed_changes) {
+      return dispatch(s, dimension, [&]<int Dim, StressState S>() { return law_.template present_wave_speed<Dim, S>(stress, history); });
+    } else {
+      (void)dimension, (void)stress, (void)history;
+      return splat(law_.wave_speed(s));
+    }
+  }
+  void initialise(int dimension, Pack* stress, Pack* history) const override {
+    for (int c = 0; c < (dimension == 2 ? stress_size<2> : stress_size<3>); ++c) stress[c] = splat(0.);
+    dimension == 2 ? Law::template initialise<2>(history) : Law::template initialise<3>(history);
+  }
+  bool update(StressState s, const StressBatch<2>& b) const override {
+    return s == StressState::plane_stress ? sweep<2, StressState::plane_stress>(b) : sweep<2, StressState::plane_strain>(b);
+  }
+  bool update(StressState, const StressBatch<3>& b) const override { return sweep<3, StressState::three_dimensional>(b); }
+  PackReport report(StressState s, int dimension, const Pack* stress, const Pack* history) const override {
+    return dispatch(s, dimension, [&]<int Dim, StressState S>() { return law_.template report<Dim, S>(stress, history); });
+  }
+
+ private:
+  template <int Dim, StressState S>
+  bool sweep(const StressBatch<Dim>& b) const {
+    Pack smallest = splat(1.);
+    for (int q = 0; q < b.packs; ++q) {
+      const Pack ratio = law_.template update<Dim, S>(b.L + q * Dim * Dim, b.dt, b.stress + q * stress_size<Dim>,
+                                                      b.history + q * b.history_stride);
+      smallest = ratio < smallest ? ratio : (ratio == ratio ? smallest : splat(-1.));  // NaN compares with nothing
+    }
+    return all_positive(smallest);
+  }
+  template <class F>
+  static auto dispatch(StressState s, int dimension, F f) {
+    if (dimension == 3) return f.template operator()<3, StressState::three_dimensional>();
+    if (s == StressState::plane_stress) return f.template operator()<2, StressState::plane_stress>();
+    return f.template operator()<2, StressState::plane_strain>();
+  }
+  Law law_;
+};
+
+}  // namespace crampon

@@ -1,0 +1,102 @@
+#include "crampon/output/canvas.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "crampon/output/file.hpp"
+
+namespace crampon {
+namespace {
+
+void check(cairo_status_t status) {
+  if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(fmt::format("cannot draw: {}", cairo_status_to_string(status)));
+}
+
+cairo_status_t append_bytes(void* closure, const unsigned char* data, unsigned int length) {
+  static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+}  // namespace
+
+Canvas::Canvas(int width, int height)
+    : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), context_(cairo_create(surface_.get())) {
+  check(cairo_surface_status(surface()));
+  check(cairo_status(context()));
+  set_colour({1, 1, 1});
+  cairo_paint(context());
+}
+
+void Canvas::line(double x0, double y0, double x1, double y1, double width) {
+  cairo_set_line_width(context(), width);
+  cairo_move_to(context(), x0, y0);
+  cairo_line_to(context(), x1, y1);
+  cairo_stroke(context());
+}
+
+void Canvas::fill_box(const Box& box) {
+  cairo_rectangle(context(), box.left, box.top, box.width, box.height);
+  cairo_fill(context());
+}
+
+void Canvas::stroke_box(const Box& box, double width) {
+  cairo_set_line_width(context(), width);
+  cairo_rectangle(context(), box.left, box.top, box.width, box.height);
+  cairo_stroke(context());
+}
+
+void Canvas::set_font(double size) const {
+  cairo_select_font_face(context(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context(), size);
+}
+
+void Canvas::text(double x, double y, const std::string& text, double size, AlignX align_x, AlignY align_y) {
+  set_font(size);
+  cairo_font_extents_t font;
+  cairo_font_extents(context(), &font);
+  const double width = text_width(text, size);
+  if (align_x == AlignX::centre) x -= width / 2;
+  if (align_x == AlignX::right) x -= width;
+  // The height of digits, not the line's: numbers stand level with their ticks.
+  const double digits = 0.73 * size;
+  if (align_y == AlignY::top) y += font.ascent;
+  if (align_y == AlignY::middle) y += digits / 2;
+  if (align_y == AlignY::bottom) y -= font.descent;
+  cairo_move_to(context(), x, y);
+  cairo_show_text(context(), text.c_str());
+}
+
+void Canvas::text_upwards(double x, double y, const std::string& label, double size) {
+  cairo_save(context());
+  cairo_translate(context(), x, y);
+  cairo_rotate(context(), -std::numbers::pi / 2);
+  text(0, 0, label, size, AlignX::centre, AlignY::middle);
+  cairo_restore(context());
+}
+
+double Canvas::text_width(const std::string& text, double size) const {
+  set_font(size);
+  cairo_text_extents_t extents;
+  cairo_text_extents(context(), text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+void Canvas::save(const std::filesystem::path& path) const {
+  check(cairo_status(context()));
+  cairo_surface_flush(surface());
+  std::string png;
+  check(cairo_surface_write_to_png_stream(surface(), append_bytes, &png));
+  write_file(path, png);
+}
+
+double widest(const Canvas& canvas, const std::vector<std::string>& texts, double size) {
+  double most = 0;
+  for (const std::string& text : texts) most = std::max(most, canvas.text_width(text, size));
+  return most;
+}
+
+}  // namespace crampon

@@ -1,0 +1,20 @@
+#pragma once
+/// Whole files, written so that a reader never meets a half of one.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace crampon {
+
+/// Writes bytes to a temporary neighbour and renames it onto path, so that path is either the old file or the whole new one.
+/// Throws std::runtime_error "path: cannot write: reason" (disk full, no permission, ...) and removes the temporary file.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Content of a file. Throws std::runtime_error "path: cannot read: reason".
+std::string read_file(const std::filesystem::path& path);
+
+/// Name of the temporary neighbour of path while it is written; a killed run may leave one behind.
+std::filesystem::path partial_name(const std::filesystem::path& path);
+
+}  // namespace crampon

@@ -1,0 +1,163 @@
+#include "crampon/output/history.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "crampon/output/file.hpp"
+#include "crampon/output/suggest.hpp"
+
+namespace crampon {
+
+HistoryWriter::HistoryWriter(std::filesystem::path path, const std::vector<HistoryColumn>& columns)
+    : path_(std::move(path)), columns_(columns.size()) {
+  std::string header;
+  for (const HistoryColumn& c : columns) {
+    if (c.name.find_first_of(",[]\"\n\r") != std::string::npos || c.unit.find_first_of(",[]\"\n\r") != std::string::npos)
+      throw std::invalid_argument(fmt::format("history column \"{}[{}]\" holds a character that the header reserves", c.name, c.unit));
+    header += fmt::format("{}{}[{}]", header.empty() ? "" : ",", c.name, c.unit);
+  }
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file_ < 0) throw std::runtime_error(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(errno)));
+  try {
+    write_line(header + "\n");
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
+}
+
+HistoryWriter::~HistoryWriter() { ::close(file_); }
+
+void HistoryWriter::write_row(const std::vector<double>& row) {
+  if (row.size() != columns_)
+    throw std::invalid_argument(fmt::format("{}: a row of {} values for {} columns", path_.string(), row.size(), columns_));
+  std::string line;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (k > 0) line += ',';
+    line += fmt::format("{:.17g}", row[k]);
+  }
+  write_line(line + "\n");
+}
+
+void HistoryWriter::write_line(const std::string& line) {
+  const off_t before = ::lseek(file_, 0, SEEK_CUR);
+  std::size_t done = 0;
+  while (done < line.size()) {
+    const ssize_t n = ::write(file_, line.data() + done, line.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) {
+      const int code = errno;
+      // A pipe or device cannot be cut back; there the row begun stays without its end, which the reader leaves out.
+      if (before >= 0 && ::ftruncate(file_, before) == 0) ::lseek(file_, before, SEEK_SET);
+      throw std::runtime_error(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(code)));
+    }
+    done += static_cast<std::size_t>(n);
+  }
+}
+
+bool History::has_column(std::string_view name) const {
+  return std::any_of(columns.begin(), columns.end(), [&](const HistoryColumn& c) { return c.name == name; });
+}
+
+std::size_t History::column_index(std::string_view name) const {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k].name == name) return k;
+    names.push_back(columns[k].name);
+  }
+  throw std::out_of_range(fmt::format("the history has no column \"{}\"{}", name, suggest_name(name, names)));
+}
+
+namespace {
+
+double interpolate(const std::vector<double>& t, const std::vector<double>& y, double time) {
+  if (t.empty()) throw std::out_of_range("the history has no rows");
+  const double slack = 1e-9 * (t.back() - t.front());  // an end time printed and read again
+  if (!(time >= t.front() - slack && time <= t.back() + slack))
+    throw std::out_of_range(fmt::format("time {:g} s lies outside the history, which covers {:g} s to {:g} s", time, t.front(), t.back()));
+  const auto after = std::upper_bound(t.begin(), t.end(), time);
+  if (after == t.begin()) return y.front();
+  if (after == t.end()) return y.back();
+  const std::size_t k = static_cast<std::size_t>(after - t.begin()) - 1;
+  if (t[k] == time) return y[k];
+  const double w = (time - t[k]) / (t[k + 1] - t[k]);
+  return (1 - w) * y[k] + w * y[k + 1];
+}
+
+}  // namespace
+
+double History::value_at(std::string_view name, double time) const {
+  const std::vector<double>& y = column(name);  // throws first when there is no column at all
+  return interpolate(values[0], y, time);
+}
+
+HistoryStatistics History::statistics(std::string_view name, double from, double to) const {
+  if (!(from <= to)) throw std::invalid_argument(fmt::format("range from {:g} s to {:g} s runs backwards", from, to));
+  const std::vector<double>& y = column(name);
+  const std::vector<double>& t = values[0];
+  std::vector<double> times{from}, curve{interpolate(t, y, from)};
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    if (t[k] <= from || t[k] >= to) continue;
+    times.push_back(t[k]);
+    curve.push_back(y[k]);
+  }
+  times.push_back(to);
+  curve.push_back(interpolate(t, y, to));
+
+  HistoryStatistics s;
+  s.minimum = *std::min_element(curve.begin(), curve.end());
+  s.maximum = *std::max_element(curve.begin(), curve.end());
+  double area = 0;
+  for (std::size_t k = 1; k < times.size(); ++k) area += 0.5 * (curve[k] + curve[k - 1]) * (times[k] - times[k - 1]);
+  s.mean = to > from ? area / (to - from) : curve.front();
+  s.spread = s.maximum - s.minimum;
+  // min_element passes over NaN; a range with one has no extremes.
+  if (std::any_of(curve.begin(), curve.end(), [](double v) { return v != v; })) s.minimum = s.maximum = s.spread = s.mean;
+  return s;
+}
+
+History read_history(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  History history;
+  std::size_t line_number = 0, at = 0;
+  const auto fail = [&](const std::string& what) {
+    return std::runtime_error(fmt::format("{}:{}: {}", path.string(), std::max<std::size_t>(line_number, 1), what));
+  };
+  for (std::size_t end = text.find('\n'); end != std::string::npos; at = end + 1, end = text.find('\n', at)) {
+    ++line_number;
+    std::string line = text.substr(at, end - at);
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    std::size_t column = 0, from = 0;
+    for (bool more = true; more; ++column) {
+      const std::size_t comma = line.find(',', from);
+      more = comma != std::string::npos;
+      const std::string cell = line.substr(from, more ? comma - from : comma);
+      from = comma + 1;
+      if (line_number == 1) {
+        const std::size_t bracket = cell.find('[');
+        if (bracket == std::string::npos || cell.back() != ']') throw fail(fmt::format("column \"{}\" is not name[unit]", cell));
+        history.columns.push_back({cell.substr(0, bracket), cell.substr(bracket + 1, cell.size() - bracket - 2)});
+        history.values.emplace_back();
+        continue;
+      }
+      if (column >= history.columns.size()) throw fail("more values than columns");
+      char* stop = nullptr;
+      const double value = std::strtod(cell.c_str(), &stop);
+      if (stop == cell.c_str() || *stop != '\0') throw fail(fmt::format("\"{}\" is no number", cell));
+      history.values[column].push_back(value);
+    }
+    if (line_number > 1 && column != history.columns.size()) throw fail("fewer values than columns");
+  }
+  if (history.columns.empty()) throw fail("no header");
+  return history;
+}
+
+}  // namespace crampon

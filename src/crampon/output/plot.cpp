@@ -1,0 +1,280 @@
+#include "crampon/output/plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "crampon/output/canvas.hpp"
+#include "crampon/output/display_scale.hpp"
+
+namespace crampon {
+namespace {
+
+constexpr Colour ink{0.1, 0.1, 0.12}, grid_colour{0.88, 0.88, 0.89};
+
+struct Range {
+  double lowest = INFINITY, highest = -INFINITY;
+  void include(double v) {
+    lowest = std::min(lowest, v);
+    highest = std::max(highest, v);
+  }
+};
+
+// One area: its curves with their place in the legend, which fixes colour and dashes.
+struct Area {
+  std::vector<std::pair<std::size_t, const Curve*>> curves;
+  std::string name, unit;
+  Range y;
+  DisplayScale scale;
+  Ticks ticks;
+};
+
+void set_dashes(cairo_t* c, std::size_t index, double size) {
+  static const std::vector<std::vector<double>> patterns{{}, {}, {0.9, 0.35}, {0.9, 0.3, 0.15, 0.3}, {0.2, 0.3}};
+  std::vector<double> dashes = patterns[index % patterns.size()];
+  for (double& d : dashes) d *= size;
+  cairo_set_dash(c, dashes.data(), static_cast<int>(dashes.size()), 0);
+}
+
+void set_style(Canvas& canvas, std::size_t index, double text) {
+  canvas.set_colour(curve_colours()[index % curve_colours().size()]);
+  set_dashes(canvas.context(), index, text);
+  cairo_set_line_width(canvas.context(), std::max(1.5, 0.13 * text));
+  cairo_set_line_join(canvas.context(), CAIRO_LINE_JOIN_ROUND);
+}
+
+void mark(Canvas& canvas, double x, double y, std::size_t index, double text) {
+  cairo_t* c = canvas.context();
+  set_dashes(c, 0, text);
+  cairo_new_sub_path(c);
+  cairo_arc(c, x, y, 0.22 * text, 0, 2 * 3.141592653589793);
+  canvas.set_colour({1, 1, 1});
+  cairo_fill_preserve(c);
+  canvas.set_colour(curve_colours()[index % curve_colours().size()]);
+  cairo_set_line_width(c, std::max(1.2, 0.1 * text));
+  cairo_stroke(c);
+}
+
+void paint_curve(Canvas& canvas, const Curve& curve, std::size_t index, const PlotMap::Area& area, double text) {
+  cairo_t* c = canvas.context();
+  bool down = false;
+  set_style(canvas, index, text);
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) {
+      down = false;
+      continue;
+    }
+    const auto at = area.pixel(curve.x[i], curve.y[i]);
+    if (curve.style == CurveStyle::marks) mark(canvas, at[0], at[1], index, text);
+    else if (down) cairo_line_to(c, at[0], at[1]);
+    else cairo_move_to(c, at[0], at[1]);
+    down = true;
+  }
+  cairo_stroke(c);
+  set_dashes(c, 0, text);
+}
+
+// Entries from left to right, wrapped; returns the height used. With Pass::measure nothing is painted.
+enum class Pass { measure, paint };
+double legend(Canvas& canvas, const std::vector<Area>& areas, double left, double top, double width, double text, Pass pass) {
+  const double sample = 2.4 * text, row = 1.6 * text;
+  double x = left, y = top;
+  const auto speaks_for_itself = [&](const Area& area) {
+    return area.curves.size() == 1 && (areas.size() == 1 || area.curves[0].second->label == area.name);
+  };
+  if (std::all_of(areas.begin(), areas.end(), speaks_for_itself)) return 0;
+  for (const Area& area : areas) {
+    for (const auto& [index, curve] : area.curves) {
+      const double needed = sample + 0.5 * text + canvas.text_width(curve->label, text);
+      if (x > left && x + needed > left + width) {
+        x = left;
+        y += row;
+      }
+      if (pass == Pass::paint) {
+        if (curve->style == CurveStyle::marks) {
+          mark(canvas, x + sample / 2, y + row / 2, index, text);
+        } else {
+          set_style(canvas, index, text);
+          cairo_move_to(canvas.context(), x, y + row / 2);
+          cairo_line_to(canvas.context(), x + sample, y + row / 2);
+          cairo_stroke(canvas.context());
+          set_dashes(canvas.context(), 0, text);
+        }
+        canvas.set_colour(ink);
+        canvas.text(x + sample + 0.5 * text, y + row / 2, curve->label, text, AlignX::left, AlignY::middle);
+      }
+      x += needed + 1.6 * text;
+    }
+  }
+  return y + row - top;
+}
+
+// Room around the points; a curve that is flat to round-off gets a range that shows it as flat.
+Range fitted(Range r, const std::optional<double>& lowest, const std::optional<double>& highest, double margin) {
+  const double largest = std::max(std::abs(r.lowest), std::abs(r.highest));
+  double span = r.highest - r.lowest;
+  if (span <= 1e-9 * largest || span == 0) {
+    const double half = largest > 0 ? 0.05 * largest : 1;
+    r = {r.lowest - half, r.highest + half};
+    span = 0;
+  }
+  r = {lowest.value_or(r.lowest - margin * span), highest.value_or(r.highest + margin * span)};
+  if (!(r.highest > r.lowest)) throw std::invalid_argument("the range to plot is empty");
+  return r;
+}
+
+// Only the lowest of several areas numbers the shared axis.
+enum class AxisNumbers { shown, hidden };
+
+void paint_area(Canvas& canvas, const Area& area, const PlotMap::Area& map, const Ticks& x_ticks, const DisplayScale& x_scale,
+                double text, AxisNumbers numbers) {
+  const double tick = 0.35 * text, bottom = map.top + map.height;
+  for (const double t : x_ticks.at) {
+    const double x = map.pixel(t * x_scale.factor, 0)[0];
+    canvas.set_colour(grid_colour);
+    canvas.line(x, map.top, x, bottom, 1);
+    canvas.set_colour(ink);
+    canvas.line(x, bottom, x, bottom + tick, 1);
+    if (numbers == AxisNumbers::shown) canvas.text(x, bottom + tick + 0.1 * text, tick_label(t, x_ticks.step), text, AlignX::centre, AlignY::top);
+  }
+  for (const double t : area.ticks.at) {
+    const double y = map.pixel(0, t * area.scale.factor)[1];
+    canvas.set_colour(grid_colour);
+    canvas.line(map.left, y, map.left + map.width, y, 1);
+    canvas.set_colour(ink);
+    canvas.line(map.left - tick, y, map.left, y, 1);
+    canvas.text(map.left - tick - 0.3 * text, y, tick_label(t, area.ticks.step), text, AlignX::right, AlignY::middle);
+  }
+  canvas.stroke_box({map.left - 0.5, map.top - 0.5, map.width + 1, map.height + 1}, 1);
+  for (const auto& [index, curve] : area.curves) {
+    const double over = curve->style == CurveStyle::marks ? 0.3 * text : 0;  // a mark on the edge is shown whole
+    cairo_save(canvas.context());
+    cairo_rectangle(canvas.context(), map.left - over, map.top - over, map.width + 2 * over, map.height + 2 * over);
+    cairo_clip(canvas.context());
+    paint_curve(canvas, *curve, index, map, text);
+    cairo_restore(canvas.context());
+  }
+  canvas.set_colour(ink);
+  const std::string label = label_with_unit(area.name, area.scale.unit);
+  const double fitting = std::min(text, text * map.height / std::max(1., canvas.text_width(label, text)));
+  canvas.text_upwards(0.5 * text + 0.75 * text, map.top + map.height / 2, label, fitting);
+}
+
+PlotMap plot_areas(std::vector<Area> areas, const PlotOptions& options, const std::filesystem::path& path) {
+  Range x;
+  for (Area& area : areas) {
+    for (const auto& [index, curve] : area.curves) {
+      if (curve->x.size() != curve->y.size())
+        throw std::invalid_argument(fmt::format("curve \"{}\": x and y differ in length", curve->label));
+      for (std::size_t i = 0; i < curve->x.size(); ++i) {
+        if (!std::isfinite(curve->x[i]) || !std::isfinite(curve->y[i])) continue;
+        x.include(curve->x[i]);
+        area.y.include(curve->y[i]);
+      }
+    }
+    if (area.y.highest < area.y.lowest) throw std::invalid_argument(fmt::format("there is nothing to plot of {}", area.name));
+  }
+  x = fitted(x, options.x_lowest, options.x_highest, 0);
+  const DisplayScale x_scale = display_scale(std::max(std::abs(x.lowest), std::abs(x.highest)), options.x_unit);
+
+  Canvas canvas(options.width, options.height);
+  const double text = std::clamp(options.width / 65., 11., 40.), tick = 0.35 * text;
+  const double title_height = options.title.empty() ? 0 : 2.2 * text;
+  const double bottom = tick + 3.4 * text, right = 1.6 * text, between = 0.9 * text;
+  double left = 6 * text, legend_height = 0, height = 0;
+  for (int round = 0; round < 3; ++round) {
+    legend_height = legend(canvas, areas, left, 0, options.width - left - right, text, Pass::measure);
+    const double top = 0.8 * text + title_height + legend_height;
+    const auto count = static_cast<double>(areas.size());
+    height = std::floor((options.height - top - bottom - (count - 1) * between) / count);
+    if (height < 3 * text) throw std::invalid_argument("the plot is too low for its areas and legend");
+    double widest_label = 0;
+    for (Area& area : areas) {
+      const Range y = fitted(area.y, options.y_lowest, options.y_highest, 0.06);
+      area.scale = display_scale(std::max(std::abs(y.lowest), std::abs(y.highest)), area.unit);
+      const int most = std::max(2, static_cast<int>(height / (2.6 * text)));
+      area.ticks = round_ticks(y.lowest / area.scale.factor, y.highest / area.scale.factor, most);
+      for (const double t : area.ticks.at)
+        widest_label = std::max(widest_label, canvas.text_width(tick_label(t, area.ticks.step), text));
+    }
+    left = std::floor(2.5 * text + widest_label + 0.3 * text + tick);
+  }
+  const double width = std::floor(options.width - left - right);
+  const double top = std::floor(0.8 * text + title_height + legend_height);
+  const int most_x = std::max(2, static_cast<int>(width / (4.5 * text)));
+  const Ticks x_ticks = round_ticks(x.lowest / x_scale.factor, x.highest / x_scale.factor, most_x);
+
+  PlotMap map{options.width, options.height, {}};
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const Range y = fitted(areas[i].y, options.y_lowest, options.y_highest, 0.06);
+    map.areas.push_back({left, std::floor(top + static_cast<double>(i) * (height + between)), width, height, x.lowest, x.highest, y.lowest,
+                         y.highest});
+    paint_area(canvas, areas[i], map.areas.back(), x_ticks, x_scale, text,
+               i + 1 == areas.size() ? AxisNumbers::shown : AxisNumbers::hidden);
+  }
+  const PlotMap::Area& last = map.areas.back();
+  canvas.text(left + width / 2, last.top + last.height + tick + 1.6 * text, label_with_unit(options.x_name, x_scale.unit), text,
+              AlignX::centre, AlignY::top);
+  if (!options.title.empty()) {
+    const double fitting = std::min(1.2 * text, 1.2 * text * (options.width - text) / canvas.text_width(options.title, 1.2 * text));
+    canvas.text(options.width / 2., 0.5 * text + title_height / 2, options.title, fitting, AlignX::centre, AlignY::middle);
+  }
+  legend(canvas, areas, left, 0.4 * text + title_height, width, text, Pass::paint);
+  canvas.save(path);
+  return map;
+}
+
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+}  // namespace
+
+PlotMap plot_profiles(const std::vector<Curve>& curves, const PlotOptions& options, const std::filesystem::path& path) {
+  Area area;
+  area.name = options.y_name;
+  area.unit = options.y_unit;
+  for (std::size_t i = 0; i < curves.size(); ++i) area.curves.emplace_back(i, &curves[i]);
+  return plot_areas({std::move(area)}, options, path);
+}
+
+PlotMap plot_history(const std::vector<HistoryCurve>& curves, const PlotOptions& options, const std::filesystem::path& path) {
+  std::vector<Curve> drawn;
+  std::vector<std::string> names, units;
+  for (const HistoryCurve& c : curves) {
+    const std::string name = spaced(c.column);
+    drawn.push_back({c.label.empty() ? name : c.label, c.history->values.empty() ? std::vector<double>{} : c.history->values[0],
+                     c.history->column(c.column), CurveStyle::line});
+    names.push_back(name);
+    units.push_back(c.history->unit(c.column));
+  }
+  std::vector<Area> areas;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    auto area = std::find_if(areas.begin(), areas.end(), [&](const Area& a) { return a.unit == units[i]; });
+    if (area == areas.end()) {
+      area = areas.insert(areas.end(), Area{});
+      area->unit = units[i];
+      area->name = names[i];
+    }
+    if (area->name != names[i]) area->name.clear();  // the legend names them
+    area->curves.emplace_back(i, &drawn[i]);
+  }
+  if (areas.empty()) throw std::invalid_argument("there is nothing to plot: no column");
+  PlotOptions filled = options;
+  if (filled.x_name.empty()) filled.x_name = "time";
+  if (filled.x_unit.empty()) filled.x_unit = "s";
+  if (areas.size() == 1 && !options.y_name.empty()) areas[0].name = options.y_name;
+  return plot_areas(std::move(areas), filled, path);
+}
+
+PlotMap plot_history(const History& history, const std::vector<std::string>& columns, const PlotOptions& options,
+                     const std::filesystem::path& path) {
+  std::vector<HistoryCurve> curves;
+  for (const std::string& column : columns) curves.push_back({&history, column, ""});
+  return plot_history(curves, options, path);
+}
+
+}  // namespace crampon

@@ -1,0 +1,101 @@
+#include "crampon/output/quantity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "crampon/output/suggest.hpp"
+
+namespace crampon {
+namespace {
+
+constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+constexpr std::array<std::string_view, 6> tensor_parts{"xx", "yy", "zz", "xy", "yz", "xz"};
+constexpr std::array<std::string_view, 3> derived{"pressure", "von_mises", "fringes"};
+
+const Field* find_field(const PointFrame& frame, std::string_view name) {
+  for (const Field& field : frame.fields)
+    if (field.name == name) return &field;
+  return nullptr;
+}
+
+template <class Function>
+std::vector<double> per_point(const Field& field, Function function) {
+  const std::size_t n = static_cast<std::size_t>(field.components);
+  std::vector<double> out(field.values.size() / n);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = function(&field.values[i * n]);
+  return out;
+}
+
+std::vector<double> magnitude(const Field& field) {
+  return per_point(field, [](const double* v) { return std::hypot(v[0], v[1], v[2]); });
+}
+
+std::optional<std::size_t> component_index(const Field& field, std::string_view part) {
+  const auto index = [&](const auto& parts) -> std::optional<std::size_t> {
+    const auto found = std::find(parts.begin(), parts.end(), part);
+    if (found == parts.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - parts.begin());
+  };
+  if (field.components == 3) return index(axes);
+  if (field.components == 6) return index(tensor_parts);
+  return std::nullopt;
+}
+
+double von_mises(const double* s) {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+// N03 Eq. 23; stress in Pa, k_f in 1/MPa.
+double fringe(const double* s, double k_f) { return std::cos(k_f * 1e-6 * std::hypot(s[0] - s[1], 2 * s[3])); }
+
+}  // namespace
+
+Quantity evaluate_quantity(const PointFrame& frame, const std::string& name, double fringe_constant) {
+  if (const Field* field = find_field(frame, name)) {
+    if (field->components == 1) return {name, field->unit, field->values};
+    if (field->components == 3) return {name, field->unit, magnitude(*field)};
+    if (field->components == 6)
+      throw std::invalid_argument(fmt::format("\"{0}\" is a tensor; name a component, such as \"{0}_xx\"", name));
+  }
+  if (const std::size_t cut = name.rfind('_'); cut != std::string::npos) {
+    const Field* field = find_field(frame, std::string_view(name).substr(0, cut));
+    const std::string_view part = std::string_view(name).substr(cut + 1);
+    if (field && field->components == 3 && part == "magnitude") return {name, field->unit, magnitude(*field)};
+    if (field) {
+      if (const auto k = component_index(*field, part))
+        return {name, field->unit, per_point(*field, [&](const double* v) { return v[*k]; })};
+    }
+  }
+  const Field* stress = find_field(frame, "stress");
+  if (std::find(derived.begin(), derived.end(), name) != derived.end()) {
+    if (!stress || stress->components != 6)
+      throw std::invalid_argument(fmt::format("\"{}\" needs the field \"stress\", which these results do not hold", name));
+    if (name == "pressure") return {name, stress->unit, per_point(*stress, [](const double* s) { return -(s[0] + s[1] + s[2]) / 3; })};
+    if (name == "von_mises") return {name, stress->unit, per_point(*stress, von_mises)};
+    return {name, "", per_point(*stress, [&](const double* s) { return fringe(s, fringe_constant); })};
+  }
+  throw std::invalid_argument(fmt::format("no quantity \"{}\"{}", name, suggest_name(name, quantity_names(frame))));
+}
+
+std::vector<std::string> quantity_names(const PointFrame& frame) {
+  std::vector<std::string> names;
+  for (const Field& field : frame.fields) {
+    if (field.components == 1 || field.components == 3) names.push_back(field.name);
+    if (field.components == 3)
+      for (const std::string_view part : axes) names.push_back(fmt::format("{}_{}", field.name, part));
+    if (field.components == 6)
+      for (const std::string_view part : tensor_parts) names.push_back(fmt::format("{}_{}", field.name, part));
+  }
+  if (const Field* stress = find_field(frame, "stress"); stress && stress->components == 6)
+    for (const std::string_view name : derived) names.emplace_back(name);
+  return names;
+}
+
+}  // namespace crampon

@@ -1,0 +1,30 @@
+#pragma once
+/// Numbers to colour particles by: a field, one of its components, or something derived.
+
+#include <string>
+#include <vector>
+
+#include "crampon/output/frame.hpp"
+
+namespace crampon {
+
+/// One number per point.
+struct Quantity {
+  std::string name;
+  std::string unit;
+  std::vector<double> values;
+};
+
+/// Fringe constant of N03 sec. 3.3 for stresses in MPa.
+inline constexpr double paper_fringe_constant = 0.0889;
+
+/// Understands: the name of a scalar field; "velocity" and "velocity_magnitude" (length of a vector); "velocity_x"; "stress_xx";
+/// from the field "stress": "pressure" (minus the mean of xx, yy, zz), "von_mises" and "fringes", N03 Eq. 23,
+/// cos(k_f sqrt((sxx - syy)^2 + 4 sxy^2)) with k_f in 1/MPa. A field of that name wins over a derived quantity.
+/// Throws std::invalid_argument with the most similar name.
+Quantity evaluate_quantity(const PointFrame& frame, const std::string& name, double fringe_constant = paper_fringe_constant);
+
+/// All names evaluate_quantity understands for this frame.
+std::vector<std::string> quantity_names(const PointFrame& frame);
+
+}  // namespace crampon

@@ -1,0 +1,68 @@
+#pragma once
+/// The one folder a run writes to.
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crampon/output/frame.hpp"
+#include "crampon/output/pvd.hpp"
+#include "crampon/output/vtp.hpp"
+
+namespace crampon {
+
+/// The folder already holds results and overwriting was not asked for.
+class ResultsExist : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What to do with older results.
+enum class Overwrite { refuse, replace };
+
+/// Names and time series of a results folder:
+///   particles.pvd  particles/particles_000000.vtp ...     history.csv
+///   cracks.pvd     cracks/cracks_000000.vtp ...           run.json
+///   grid.pvd       grid/grid_000000.vtp ...               input.resolved.toml
+class ResultsFolder {
+ public:
+  /// For a run. Creates the folder and those above it. When a run wrote there before: refuse throws ResultsExist; replace removes the
+  /// files a run writes and nothing else. Throws std::runtime_error "path: reason" when that cannot be done.
+  static ResultsFolder create(const std::filesystem::path& path, Overwrite overwrite = Overwrite::refuse);
+  /// For reading. Throws std::runtime_error when the folder is missing or holds no results.
+  static ResultsFolder open(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path history() const { return path_ / "history.csv"; }
+  std::filesystem::path run_record() const { return path_ / "run.json"; }
+  std::filesystem::path resolved_input() const { return path_ / "input.resolved.toml"; }
+  std::filesystem::path particles_series() const { return path_ / "particles.pvd"; }
+  std::filesystem::path cracks_series() const { return path_ / "cracks.pvd"; }
+  std::filesystem::path grid_series() const { return path_ / "grid.pvd"; }
+
+  /// Writes one frame and adds it to its series. Throws std::runtime_error "path: reason"; earlier frames and lists stay whole.
+  void write_particles(const PointFrame& frame, Precision precision = Precision::single);
+  void write_cracks(const CrackFrame& frame, Precision precision = Precision::single);
+  void write_grid(const PointFrame& frame, Precision precision = Precision::single);
+  void write_resolved_input(std::string_view text);
+
+  /// Frames on disk; empty when the series was not written.
+  std::vector<PvdEntry> particle_frames() const;
+  std::vector<PvdEntry> crack_frames() const;
+  std::vector<PvdEntry> grid_frames() const;
+  PointFrame read_particles(const PvdEntry& entry) const { return read_vtp(path_ / entry.file); }
+  CrackFrame read_cracks(const PvdEntry& entry) const { return read_crack_vtp(path_ / entry.file); }
+
+ private:
+  explicit ResultsFolder(std::filesystem::path path);
+  template <class Frame>
+  void write_frame(PvdSeries& series, const char* name, const Frame& frame, Precision precision);
+
+  std::filesystem::path path_;
+  PvdSeries particles_, cracks_, grid_;
+};
+
+}  // namespace crampon

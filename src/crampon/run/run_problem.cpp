@@ -1,0 +1,202 @@
+#include "crampon/run/run_problem.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "crampon/core/closest_name.hpp"
+#include "crampon/output/file.hpp"
+#include "crampon/output/history.hpp"
+#include "crampon/output/quantity.hpp"
+#include "crampon/run/schedule.hpp"
+
+namespace crampon {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point from, Clock::time_point to) { return std::chrono::duration<double>(to - from).count(); }
+
+/// The files of one run.
+class Recorder {
+ public:
+  Recorder(const Problem& problem, const Simulation& simulation, const RunOptions& options)
+      : problem_(problem),
+        simulation_(simulation),
+        folder_(ResultsFolder::create(options.folder, options.overwrite)),
+        history_(folder_.history(), simulation.history_columns()),
+        frames_(problem.output),
+        rows_(problem.output, problem.time, simulation.end_time()) {
+    if (!problem.source.empty()) write_file(folder_.path() / "input.original.toml", problem.source);
+    folder_.write_resolved_input(problem.resolved);
+    frames_.take(simulation.time(), 0, 0);  // a listed time of 0 is the first frame, which is always written
+  }
+
+  double next_frame_time() const { return frames_.next_time(); }
+  const ResultsFolder& folder() const { return folder_; }
+  double seconds() const { return seconds_; }
+
+  /// Writes what is due after a step. slack: see FrameSchedule::take.
+  void record_step(double slack) {
+    const Clock::time_point start = Clock::now();
+    if (frames_.take(simulation_.time(), simulation_.steps_done(), slack)) write_frame();
+    if (rows_.take(simulation_.time(), simulation_.steps_done(), slack)) write_row();
+    seconds_ += seconds_between(start, Clock::now());
+  }
+  /// Frame and row of the present state, unless they are there already.
+  void record_state() {
+    const Clock::time_point start = Clock::now();
+    if (last_frame_ != simulation_.steps_done()) write_frame();
+    if (last_row_ != simulation_.steps_done()) write_row();
+    seconds_ += seconds_between(start, Clock::now());
+  }
+  /// What a failed step left, as a frame only: its sums mean nothing.
+  void record_wreck() { write_frame(); }
+
+ private:
+  void write_frame() {
+    const Precision precision = problem_.output.full_precision ? Precision::full : Precision::single;
+    folder_.write_particles(simulation_.particles(problem_.output.quantities), precision);
+    if (!problem_.cracks.empty()) folder_.write_cracks(simulation_.cracks(), precision);
+    if (problem_.output.grid) folder_.write_grid(simulation_.nodes(), precision);
+    last_frame_ = simulation_.steps_done();
+  }
+  void write_row() {
+    history_.write_row(simulation_.history_row());
+    last_row_ = simulation_.steps_done();
+  }
+
+  const Problem& problem_;
+  const Simulation& simulation_;
+  ResultsFolder folder_;
+  HistoryWriter history_;
+  FrameSchedule frames_;
+  HistorySchedule rows_;
+  std::int64_t last_frame_ = -1, last_row_ = -1;  // steps done when last written
+  double seconds_ = 0;
+};
+
+RunRecord describe_run(const Problem& problem, const Simulation& simulation, const RunOptions& options) {
+  RunRecord record = describe_program();
+  record.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  record.input = options.input;
+  record.title = problem.title;
+  const SimulationSize size = simulation.size();
+  record.particles = size.particles;
+  record.time_step = size.time_step;
+  return record;
+}
+
+/// Brings the record up to the present state.
+void update(RunRecord& record, const Simulation& simulation, const Recorder& recorder, double stepping, double cpu_at_start) {
+  record.steps = simulation.steps_done();
+  record.end_time = simulation.time();
+  record.phases.clear();
+  for (const PhaseTime& phase : simulation.phases()) record.phases.push_back({phase.name, phase.seconds});
+  record.phases.push_back({"write output", recorder.seconds()});
+  record.wall_seconds = stepping + recorder.seconds();
+  record.cpu_seconds = used_cpu_seconds() - cpu_at_start;
+  // Writing left out: the figure compares engines and machines, not disks.
+  record.particle_steps_per_second =
+      stepping > 0 ? static_cast<double>(record.particles) * static_cast<double>(record.steps) / stepping : 0;
+  record.peak_memory_bytes = peak_memory_bytes();
+  record.state_hash = simulation.state_hash();
+  record.notes = simulation.notes();
+}
+
+}  // namespace
+
+void check_against_simulation(const Problem& problem, const Simulation& simulation) {
+  std::vector<Diagnostic> found;
+  std::vector<std::string> columns;
+  for (const HistoryColumn& column : simulation.history_columns()) columns.push_back(column.name);
+  const std::vector<std::string> quantities = simulation.particle_quantities();
+  const auto known = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const ExpectInput& expect : problem.expects)
+    if (expect.column && !known(columns, *expect.column))
+      found.push_back({expect.at("column"), fmt::format("the history has no column \"{}\"", *expect.column), "",
+                       suggest_from(*expect.column, columns)});
+  for (const std::string& name : problem.output.quantities)
+    if (!known(quantities, name))
+      found.push_back({problem.output.at("quantities"), fmt::format("particles have no quantity \"{}\"", name), "",
+                       suggest_from(name, quantities)});
+  const bool of_particles = std::any_of(problem.expects.begin(), problem.expects.end(), [](const ExpectInput& e) { return e.quantity.has_value(); });
+  if (found.empty() && of_particles) {
+    const PointFrame frame = simulation.particles(problem.output.quantities);
+    for (const ExpectInput& expect : problem.expects) try {
+        if (expect.quantity) evaluate_quantity(frame, *expect.quantity);
+      } catch (const std::invalid_argument& error) {
+        found.push_back({expect.at("quantity"), error.what(), "only what [output] writes can be checked",
+                         "choose another quantity or add it to output.quantities"});
+      }
+  }
+  if (problem.output.every && *problem.output.every < 0.01 * simulation.size().time_step)
+    found.push_back({problem.output.at("every"),
+                     fmt::format("frames every {:g} s with time steps of {:g} s", *problem.output.every, simulation.size().time_step),
+                     "each time step would be cut into more than a hundred", "write a frame every step: every_steps = 1"});
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
+RunOutcome run_problem(const Problem& problem, Simulation& simulation, const RunOptions& options) {
+  check_against_simulation(problem, simulation);
+  Recorder recorder(problem, simulation, options);
+  RunOutcome outcome;
+  outcome.record = describe_run(problem, simulation, options);
+  outcome.folder = recorder.folder().path();
+  RunRecord& record = outcome.record;
+  record.status = "running";
+  const double cpu_at_start = used_cpu_seconds();
+  double stepping = 0;  // wall s in the engine
+
+  try {
+    write_run_record(recorder.folder().run_record(), record);
+    recorder.record_state();
+    record.status = "finished";
+    while (!simulation.finished()) {
+      if (options.interrupt != nullptr && options.interrupt->load()) {
+        outcome.end = RunOutcome::End::interrupted;
+        record.status = "interrupted";
+        break;
+      }
+      const double before = simulation.time();
+      const Clock::time_point start = Clock::now();
+      try {
+        simulation.step(recorder.next_frame_time());
+      } catch (const RunError& error) {
+        outcome.end = RunOutcome::End::stopped;
+        outcome.message = error.what();
+        record.status = "stopped: " + outcome.message;
+        break;
+      }
+      stepping += seconds_between(start, Clock::now());
+      // A sum of a million time steps is off by less than this part of one.
+      recorder.record_step(1e-6 * (simulation.time() - before));
+      if (options.progress)
+        options.progress({simulation.steps_done(), record.particles, simulation.time(), simulation.end_time(), stepping + recorder.seconds()});
+    }
+    if (outcome.end == RunOutcome::End::stopped)
+      recorder.record_wreck();
+    else
+      recorder.record_state();
+    update(record, simulation, recorder, stepping, cpu_at_start);
+    write_run_record(recorder.folder().run_record(), record);
+  } catch (const std::exception& error) {
+    // Output failed, most likely a full disk: the record of a few hundred bytes may still fit, and else the first error counts.
+    try {
+      record.status = fmt::format("stopped: {}", error.what());
+      update(record, simulation, recorder, stepping, cpu_at_start);
+      write_run_record(recorder.folder().run_record(), record);
+    } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): told by the error that follows
+    }
+    throw;
+  }
+  return outcome;
+}
+
+}  // namespace crampon

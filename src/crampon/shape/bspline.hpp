@@ -1,0 +1,23 @@
+#pragma once
+#include "crampon/core/pack.hpp"
+
+namespace crampon {
+
+/// Quadratic B-spline, kinematics.md 1.1 (Steffen et al. 2008).
+struct BsplineShape {
+  static constexpr int width = 3;
+  static constexpr double bin_shift = 0.5;  ///< particles are binned by nearest node
+
+  /// f - 1/2 is the distance to the nearest (middle) node in cells, in [-1/2, 1/2].
+  static void weights(Pack f, double /*half_size*/, double inverse_cell, Pack* N, Pack* dN) {
+    const Pack right = f, left = 1. - f, d = f - 0.5;
+    N[0] = 0.5 * left * left;
+    N[2] = 0.5 * right * right;
+    N[1] = 0.75 - d * d;
+    dN[0] = left * splat(-inverse_cell);
+    dN[2] = right * splat(inverse_cell);
+    dN[1] = d * splat(-2 * inverse_cell);
+  }
+};
+
+}  // namespace crampon

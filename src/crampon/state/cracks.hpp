@@ -1,0 +1,39 @@
+#pragma once
+/// Cracks: vertices without mass, joined by facets (N03 section 2; DESIGN section 3).
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "crampon/core/vector.hpp"
+#include "crampon/state/layers.hpp"
+
+namespace crampon {
+
+using VertexId = std::uint32_t;
+
+/// One crack. In 2D the vertices of facet k are k and k + 1 of a directed polyline; "above" is left of it (CONVENTIONS, head).
+template <int Dim>
+struct Crack {
+  std::string name;
+  bool fixed = false;   ///< the plane stays where it is
+  bool closed = false;  ///< last vertex equals the first: no tips
+  std::vector<Vec<Dim>> plane;     ///< present vertices, m
+  std::vector<Vec<Dim>> upper;     ///< points of the upper surface, m
+  std::vector<Vec<Dim>> lower;     ///< points of the lower surface, m
+  std::vector<Vec<Dim>> original;  ///< vertices at the start, m
+  std::vector<std::array<VertexId, Dim>> facets;
+};
+
+template <int Dim>
+struct Cracks {
+  std::vector<Crack<Dim>> list;
+  bool empty() const { return list.empty(); }
+  std::size_t size() const { return list.size(); }
+};
+
+/// Unit normal of a segment, from above to below: (dy, -dx)/L.
+inline Vec<2> segment_normal(const Vec<2>& a, const Vec<2>& b) { return normalized(Vec<2>{{b[1] - a[1], a[0] - b[0]}}); }
+
+}  // namespace crampon

@@ -1,0 +1,60 @@
+#pragma once
+/// Velocity fields. A layer is the set of particle-node pairs whose connecting lines cross the same cracks (DESIGN section 2):
+/// {} is N13's field [0], {a} its [1], {b} its [2], {a, b} its [3]; three and more cracks at a node are no special case.
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace crampon {
+
+using CrackId = std::uint32_t;
+
+/// The cracks that a line from a particle to a node crosses, ascending.
+class Signature {
+ public:
+  static constexpr int capacity = 7;
+
+  bool empty() const { return size_ == 0; }
+  int size() const { return static_cast<int>(size_); }
+  CrackId operator[](int k) const { return cracks_[k]; }
+  const CrackId* begin() const { return cracks_.data(); }
+  const CrackId* end() const { return cracks_.data() + size_; }
+  bool contains(CrackId c) const { return std::find(begin(), end(), c) != end(); }
+
+  /// Cracks must be added in ascending order. False when more than `capacity` cracks would be held.
+  bool append(CrackId c) {
+    if (size_ == capacity) return false;
+    cracks_[size_++] = c;
+    return true;
+  }
+  /// Present becomes absent and the other way round.
+  void toggle(CrackId c) {
+    auto* at = std::lower_bound(cracks_.data(), cracks_.data() + size_, c);
+    if (at != end() && *at == c) {
+      std::copy(at + 1, cracks_.data() + size_, at);
+      cracks_[--size_] = 0;
+    } else if (size_ < capacity) {
+      std::copy_backward(at, cracks_.data() + size_, cracks_.data() + size_ + 1);
+      *at = c;
+      ++size_;
+    }
+  }
+  auto operator<=>(const Signature& b) const = default;
+
+ private:
+  std::uint32_t size_ = 0;  // first: shorter signatures sort first, {} is always layer 0
+  std::array<CrackId, capacity> cracks_{};
+};
+
+/// Where the pair (particle, node) of a particle near a crack or a symmetry plane goes.
+struct PairTarget {
+  std::uint16_t node;  ///< tile index; the mirror node when the pair is folded at a symmetry plane
+  std::uint8_t layer;  ///< of the block
+  std::uint8_t flip;   ///< bit k: component k changes sign in the exchange (folded pairs, CONVENTIONS 29)
+};
+
+}  // namespace crampon

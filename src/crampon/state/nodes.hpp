@@ -1,0 +1,70 @@
+#pragma once
+/// What lives on nodes and tiles during one step. Nothing here survives a step but the contact memory (contact/memory.hpp).
+
+#include <cstdint>
+#include <vector>
+
+#include "crampon/core/aligned_array.hpp"
+#include "crampon/core/pack.hpp"
+#include "crampon/state/blocks.hpp"
+#include "crampon/state/layers.hpp"
+
+namespace crampon {
+
+/// {v', a} of Task 4, what particles read in Task 5: one Pack in 2D, two in 3D.
+template <int Dim>
+struct MotionRecord {
+  Pack r[motion_packs<Dim>];
+};
+
+/// Sums behind contact at a node, per layer: {V, m(x - x_i), m(X - x_i)} (N03 Eq. 8; contact.md 2.2); area/thickness in 2D: m2.
+struct ContactSums {
+  Pack r[2];
+};
+
+/// Sums over the pairs that cross one crack, per node: {n, side, N, count}; n present, N original unit normals (CONVENTIONS 9, 17).
+struct CrossingSums {
+  Pack r[2];
+};
+
+/// The layers of one block, as a tile sees them and as the block's own nodes see them.
+template <int Dim>
+struct BlockLayers {
+  std::vector<Signature> tile{Signature{}};      ///< layers in which the block's particles take part; layer 0 is {}
+  std::vector<TileBox<Dim>> tile_box;            ///< box touched by tile layers 1.. (entry l - 1)
+  std::vector<Signature> node{Signature{}};      ///< layers present at the block's own nodes
+  std::vector<CrackId> tile_cracks, node_cracks; ///< cracks crossed by pairs of the tile / at own nodes
+  std::vector<PairTarget> targets;               ///< [special pack][lane][stencil node]
+  std::vector<std::int32_t> special;             ///< per pack of the block: index of its targets, or -1; empty: none special
+  std::uint32_t tile_begin = 0, node_begin = 0;  ///< first tile / nodal slot
+  std::uint32_t crossing_tile_begin = 0, crossing_node_begin = 0;
+  bool sums_contact = false;                     ///< some node in reach has several layers
+};
+
+/// All nodal quantities of a step. Arrays are indexed [slot][local node]; a slot is a (block, layer).
+template <int Dim>
+struct Nodes {
+  std::vector<BlockLayers<Dim>> layers;  ///< per block
+  std::size_t tile_slots = 0, node_slots = 0, crossing_tile_slots = 0, crossing_node_slots = 0;
+
+  // Tiles: private to a block, added up by assembly.
+  AlignedArray<Pack> tile_momentum;
+  AlignedArray<NodalVector<Dim>> tile_force;
+  AlignedArray<ContactSums> tile_contact;
+  AlignedArray<CrossingSums> tile_crossing;
+
+  // Nodes of blocks.
+  AlignedArray<Pack> momentum;                  ///< {p, m} with the mass in lane Dim: kg m/s, kg
+  AlignedArray<NodalVector<Dim>> force;         ///< N
+  AlignedArray<NodalVector<Dim>> velocity;      ///< what the next stress update reads, m/s
+  AlignedArray<MotionRecord<Dim>> motion;       ///< {v', a} of Task 4
+  AlignedArray<ContactSums> contact;
+  AlignedArray<CrossingSums> crossing;
+
+  std::size_t bytes() const {
+    return tile_momentum.bytes() + tile_force.bytes() + tile_contact.bytes() + tile_crossing.bytes() + momentum.bytes() + force.bytes() +
+           velocity.bytes() + motion.bytes() + contact.bytes() + crossing.bytes();
+  }
+};
+
+}  // namespace crampon

@@ -1,0 +1,96 @@
+#pragma once
+/// Particles, laid out by use (shared measurements in docs/decisions/0003-data-layout.md):
+/// what nodes exchange in records of 32 bytes, what only lanes over particles touch in packs of four.
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "crampon/core/aligned_array.hpp"
+#include "crampon/core/pack.hpp"
+#include "crampon/core/vector.hpp"
+
+namespace crampon {
+
+/// Components of a symmetric tensor on particles: {xx, yy, xy, zz} in 2D, {xx, yy, zz, xy, yz, xz} in 3D.
+template <int Dim>
+inline constexpr int stress_size = Dim == 2 ? 4 : 6;
+/// Packs per particle that hold position and velocity: {x, y, vx, vy} in 2D; {x, y, z, 0}, {vx, vy, vz, 1} in 3D.
+template <int Dim>
+inline constexpr int motion_packs = Dim == 2 ? 1 : 2;
+
+inline constexpr std::uint32_t padding_id = std::numeric_limits<std::uint32_t>::max();
+
+/// All arrays have a multiple of four particles; padding particles (id == padding_id) have no mass and sit on a real one.
+template <int Dim>
+struct Particles {
+  std::size_t packs = 0;
+  int history_size = 0;             ///< Packs of material history per pack
+  AlignedArray<Pack> motion;        ///< [particle][motion_packs]: m, m/s
+  AlignedArray<Pack> mass_volume;   ///< [pack][2]: mass kg, initial volume m3
+  AlignedArray<Pack> stress;        ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
+  AlignedArray<Pack> history;       ///< [pack][history_size]: strain or deformation gradient and the law's own variables
+  AlignedArray<Vec<Dim>> original;  ///< [particle]: position at the start, m
+  AlignedArray<std::uint32_t> id;   ///< [particle]: number in the order of creation
+  AlignedArray<std::uint16_t> body; ///< [particle]
+
+  std::size_t size() const { return packs * lanes; }
+
+  void allocate(std::size_t pack_count, int history_packs) {
+    packs = pack_count;
+    history_size = history_packs;
+    motion.resize_discarding(size() * motion_packs<Dim>);
+    mass_volume.resize_discarding(packs * 2);
+    stress.resize_discarding(packs * stress_size<Dim>);
+    history.resize_discarding(packs * history_size);
+    original.resize_discarding(size());
+    id.resize_discarding(size());
+    body.resize_discarding(size());
+  }
+  std::size_t bytes() const {
+    return motion.bytes() + mass_volume.bytes() + stress.bytes() + history.bytes() + original.bytes() + id.bytes() + body.bytes();
+  }
+
+  bool is_padding(std::size_t p) const { return id[p] == padding_id; }
+  Vec<Dim> position(std::size_t p) const {
+    Vec<Dim> x;
+    for (int k = 0; k < Dim; ++k) x[k] = motion[p * motion_packs<Dim>][k];
+    return x;
+  }
+  Vec<Dim> velocity(std::size_t p) const {
+    Vec<Dim> v;
+    for (int k = 0; k < Dim; ++k) v[k] = Dim == 2 ? motion[p][2 + k] : motion[2 * p + 1][k];
+    return v;
+  }
+  void set_motion(std::size_t p, const Vec<Dim>& x, const Vec<Dim>& v) {
+    if constexpr (Dim == 2) {
+      motion[p] = Pack{x[0], x[1], v[0], v[1]};
+    } else {
+      motion[2 * p] = Pack{x[0], x[1], x[2], 0.};
+      motion[2 * p + 1] = Pack{v[0], v[1], v[2], 1.};
+    }
+  }
+  double mass(std::size_t p) const { return mass_volume[p / lanes * 2][p % lanes]; }
+  double volume(std::size_t p) const { return mass_volume[p / lanes * 2 + 1][p % lanes]; }
+
+  /// Positions of a pack, lanes over particles.
+  void pack_positions(std::size_t pack, Pack* x) const {
+    const Pack* r = &motion[pack * lanes * motion_packs<Dim>];
+    constexpr int s = motion_packs<Dim>;
+    Pack a = r[0], b = r[s], c = r[2 * s], d = r[3 * s];
+    transpose(a, b, c, d);
+    x[0] = a;
+    x[1] = b;
+    if constexpr (Dim == 3) x[2] = c;
+  }
+  /// {m v, m} of particle p, the mass in lane Dim (N03 Eq. 26).
+  Pack momentum_record(std::size_t p, double mass) const {
+    if constexpr (Dim == 2) {
+      return __builtin_shuffle(motion[p], Pack{1., 0., 0., 0.}, Index4{2, 3, 4, 5}) * mass;
+    } else {
+      return motion[2 * p + 1] * mass;
+    }
+  }
+};
+
+}  // namespace crampon

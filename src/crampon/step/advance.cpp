@@ -1,0 +1,109 @@
+#include "crampon/step/advance.hpp"
+
+#include <chrono>
+
+#include "crampon/core/parallel.hpp"
+#include "crampon/step/adjust_contact.hpp"
+#include "crampon/step/assign_velocity_fields.hpp"
+#include "crampon/step/boundary.hpp"
+#include "crampon/step/guard.hpp"
+#include "crampon/step/instantiate.hpp"
+#include "crampon/step/ledger.hpp"
+#include "crampon/step/move_cracks.hpp"
+#include "crampon/step/nodes_phase.hpp"
+#include "crampon/step/project.hpp"
+#include "crampon/step/reorder.hpp"
+#include "crampon/step/update_particles.hpp"
+
+namespace crampon {
+
+namespace {
+
+/// Runs the lines of a step, timed under the names that users see in the run summary.
+template <int Dim>
+class Phases {
+ public:
+  Phases(State<Dim>& state, int threads) : state_(state), threads_(threads) {}
+
+  template <class F>
+  void serial(const char* name, F f) {
+    const auto start = std::chrono::steady_clock::now();
+    f();
+    book(name, start);
+  }
+  template <class F>
+  void blocks(const char* name, F f) {
+    const auto start = std::chrono::steady_clock::now();
+    parallel_for(state_.blocks.size(), threads_, f);
+    book(name, start);
+  }
+
+ private:
+  void book(const char* name, std::chrono::steady_clock::time_point start) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (Phase& phase : state_.phases) {
+      if (phase.name == name) {
+        phase.seconds += seconds;
+        return;
+      }
+    }
+    state_.phases.push_back({name, seconds});
+  }
+  State<Dim>& state_;
+  int threads_;
+};
+
+}  // namespace
+
+template <int Dim, class Shape>
+void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
+  const StressUpdate scheme = model.stress_update;
+  const bool stress_first = scheme == StressUpdate::usf || scheme == StressUpdate::usavg;
+  const bool stress_last = scheme != StressUpdate::usf;
+  const bool re_extrapolates = scheme == StressUpdate::musl || scheme == StressUpdate::usavg;
+  const double stress_dt = scheme == StressUpdate::usavg ? 0.5 * dt : dt;  // N03 Eq. 35: half at a time for USAVG
+  std::vector<Vec<Dim>> load_values;
+  Vec<Dim> body_force;
+  double damping = 0;
+
+  Phases<Dim> phases(state, model.threads);
+  using B = std::size_t;
+  phases.serial("prepare", [&] {
+    if (state.must_reorder) reorder<Dim, Shape>(state, model);
+    evaluate_conditions(state, model, dt);
+    evaluate_loads(state, model, load_values, body_force, damping);
+    assign_velocity_fields<Dim, Shape>(state, model);                                                                        // Task 0
+    record_initial_volume<Dim, Shape>(state, model);
+  });
+  phases.blocks("project momentum", [&](B b) {                                                                               // Task 1
+    project_momentum<Dim, Shape>(state, model, b);
+    project_contact_sums<Dim, Shape>(state, model, b);
+  });
+  phases.blocks("contact and boundaries", [&](B b) { settle_start_momenta<Dim, Shape>(state, model, b, dt); });              // Task 2
+  phases.blocks("stress and forces", [&](B b) {                                                                              // Tasks 2, 3
+    update_stress_and_project_forces<Dim, Shape>(state, model, b, stress_first ? stress_dt : 0., load_values);
+  });
+  phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });       // Tasks 3, 4
+  phases.blocks("account loads", [&](B b) { account_loads<Dim, Shape>(state, model, b, dt, load_values); });
+  if (re_extrapolates) {
+    phases.blocks("update velocities", [&](B b) { update_velocities_and_project<Dim, Shape>(state, model, b, dt); });        // Tasks 5, 6
+    phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });        // Task 6
+  }
+  phases.serial("move cracks", [&] {                                                                                         // Task 8
+    remember_contacts(state);
+    move_cracks(state, model, dt);
+  });
+  phases.blocks("stress and positions", [&](B b) {                                                                           // Tasks 5, 6
+    finish_particles<Dim, Shape>(state, model, b, dt, stress_last ? stress_dt : 0., !re_extrapolates);
+  });
+  state.time += dt;
+  ++state.step;
+  close_ledger(state, model);
+  check_health<Dim, Shape>(state, model, dt);
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void advance<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

@@ -1,0 +1,12 @@
+#pragma once
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// One time step of dt (s): Tasks 0 to 8 of N13 (DESIGN section 1). Throws RunError with step, time, particle and advice when numbers
+/// go bad, a particle leaves the grid (unless such particles are to be removed), moves more than a cell or turns inside out.
+template <int Dim, class Shape>
+void advance(State<Dim>& state, const Model<Dim>& model, double dt);
+
+}  // namespace crampon

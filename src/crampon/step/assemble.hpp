@@ -1,0 +1,140 @@
+#pragma once
+/// Tiles to nodes and back. A node's value is the sum of the tiles that cover it, always in the same block order, so that results
+/// do not depend on the number of threads (DESIGN section 2).
+
+#include <algorithm>
+#include <cstring>
+
+#include "crampon/shape/stencil.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// Where the own nodes of a block and the tile of its neighbour `o` overlap: rows of nodes, in local and in tile indices.
+template <int Dim, class Shape>
+struct Overlap {
+  IndexVector<Dim> low{}, high{};  ///< local nodes of the block
+  IndexVector<Dim> shift{};        ///< tile index = local index + shift
+  bool empty = false;
+
+  /// o: which neighbour of `owner` has the tile (or, seen from the tile's block, reversed); box: part of the tile.
+  Overlap(const IndexVector<Dim>& step, const TileBox<Dim>& box) {
+    for (int k = 0; k < Dim; ++k) {
+      shift[k] = Tile<Dim, Shape>::offset - step[k] * block_side;
+      low[k] = std::max(0, box.low[k] - shift[k]);
+      high[k] = std::min(block_side, box.high[k] - shift[k]);
+      empty = empty || low[k] >= high[k];
+    }
+  }
+  /// f(local index, tile index, count) for every row along x.
+  template <class F>
+  void rows(F f) const {
+    const int count = high[0] - low[0];
+    if constexpr (Dim == 2) {
+      for (int j = low[1]; j < high[1]; ++j) {
+        f(j * block_side + low[0], (j + shift[1]) * Tile<Dim, Shape>::side + low[0] + shift[0], count);
+      }
+    } else {
+      for (int k = low[2]; k < high[2]; ++k) {
+        for (int j = low[1]; j < high[1]; ++j) {
+          f((k * block_side + j) * block_side + low[0],
+            ((k + shift[2]) * Tile<Dim, Shape>::side + j + shift[1]) * Tile<Dim, Shape>::side + low[0] + shift[0], count);
+        }
+      }
+    }
+  }
+};
+
+/// Offset of neighbour o in blocks: -1, 0 or 1 per axis.
+template <int Dim>
+IndexVector<Dim> neighbour_step(int o) {
+  IndexVector<Dim> s = unflatten<Dim>(o, 3);
+  for (int k = 0; k < Dim; ++k) s[k] -= 1;
+  return s;
+}
+
+template <int Dim, class Shape>
+TileBox<Dim> whole_tile() {
+  TileBox<Dim> box;
+  for (int k = 0; k < Dim; ++k) box.low[k] = 0, box.high[k] = Tile<Dim, Shape>::side;
+  return box;
+}
+
+template <int Dim>
+int layer_of(const std::vector<Signature>& layers, const Signature& signature) {
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    if (layers[l] == signature) return static_cast<int>(l);
+  }
+  return -1;
+}
+
+/// The box of a tile layer that particles touch.
+template <int Dim>
+const TileBox<Dim>& touched_box(const State<Dim>& state, std::size_t block, int layer) {
+  return layer == 0 ? state.blocks.list[block].touched : state.nodes.layers[block].tile_box[static_cast<std::size_t>(layer) - 1];
+}
+
+/// Clears the touched box of a tile.
+template <int Dim, class Shape, class Record>
+void clear_tile(Record* tile, const TileBox<Dim>& box) {
+  if (box.empty()) return;
+  constexpr int side = Tile<Dim, Shape>::side;
+  const std::size_t bytes = static_cast<std::size_t>(box.high[0] - box.low[0]) * sizeof(Record);
+  for (int k = Dim == 3 ? box.low[Dim - 1] : 0; k < (Dim == 3 ? box.high[Dim - 1] : 1); ++k) {
+    for (int j = box.low[1]; j < box.high[1]; ++j) {
+      std::memset(static_cast<void*>(tile + (k * side + j) * side + box.low[0]), 0, bytes);
+    }
+  }
+}
+
+template <class Record>
+inline void add_record(Record& a, const Record& b) {
+  if constexpr (requires { a.r[0]; }) {
+    for (std::size_t i = 0; i < std::size(a.r); ++i) a.r[i] += b.r[i];
+  } else {
+    a += b;
+  }
+}
+
+/// Sum of all tiles over the own nodes of a block, for one layer. `out` has block_nodes records.
+template <int Dim, class Shape, class Record>
+void assemble_layer(const State<Dim>& state, std::size_t block, const Signature& signature, const AlignedArray<Record>& tiles, Record* out,
+                    bool contact_only = false) {
+  std::memset(static_cast<void*>(out), 0, sizeof(Record) * block_nodes<Dim>);
+  const Block<Dim>& own = state.blocks.list[block];
+  for (int o = 0; o < neighbour_count<Dim>; ++o) {
+    const std::uint32_t c = own.neighbours[o];
+    if (c == no_block || !state.blocks.list[c].has_particles()) continue;
+    const BlockLayers<Dim>& layers = state.nodes.layers[c];
+    if (contact_only && !layers.sums_contact) continue;
+    const int layer = signature.empty() ? 0 : layer_of<Dim>(layers.tile, signature);
+    if (layer < 0) continue;
+    const Overlap<Dim, Shape> overlap(neighbour_step<Dim>(o), touched_box(state, c, layer));
+    if (overlap.empty) continue;
+    const Record* tile = &tiles[(std::size_t{layers.tile_begin} + layer) * Tile<Dim, Shape>::nodes];
+    overlap.rows([&](int local, int t, int count) {
+      for (int i = 0; i < count; ++i) add_record(out[local + i], tile[t + i]);
+    });
+  }
+}
+
+/// Copies nodal records into a tile of a block, for one of its layers, over the touched box.
+template <int Dim, class Shape, class Record>
+void gather_layer(const State<Dim>& state, std::size_t block, int layer, const AlignedArray<Record>& nodes, Record* tile) {
+  const Block<Dim>& own = state.blocks.list[block];
+  const BlockLayers<Dim>& layers = state.nodes.layers[block];
+  const TileBox<Dim>& box = touched_box(state, block, layer);
+  for (int o = 0; o < neighbour_count<Dim>; ++o) {
+    const std::uint32_t c = own.neighbours[o];
+    if (c == no_block) continue;
+    IndexVector<Dim> step = neighbour_step<Dim>(o);
+    for (int k = 0; k < Dim; ++k) step[k] = -step[k];  // seen from the node's block, the tile is its neighbour on the other side
+    const Overlap<Dim, Shape> overlap(step, box);
+    if (overlap.empty) continue;
+    const int there = layer == 0 ? 0 : layer_of<Dim>(state.nodes.layers[c].node, layers.tile[static_cast<std::size_t>(layer)]);
+    const Record* source = &nodes[(std::size_t{state.nodes.layers[c].node_begin} + there) * block_nodes<Dim>];
+    overlap.rows([&](int local, int t, int count) { std::memcpy(static_cast<void*>(tile + t), source + local, sizeof(Record) * count); });
+  }
+}
+
+}  // namespace crampon

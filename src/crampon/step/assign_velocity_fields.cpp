@@ -1,0 +1,358 @@
+#include "crampon/step/assign_velocity_fields.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+#include "crampon/core/error.hpp"
+#include "crampon/core/parallel.hpp"
+#include "crampon/crack/crossing.hpp"
+#include "crampon/crack/facet_bins.hpp"
+#include "crampon/shape/bspline.hpp"
+#include "crampon/shape/gimp.hpp"
+#include "crampon/shape/linear.hpp"
+#include "crampon/step/assemble.hpp"
+
+namespace crampon {
+
+namespace {
+
+/// The cracks as the crossing test wants them; empty in 3D, where cracks are still to come.
+struct CrackView {
+  std::vector<std::vector<Vec<2>>> normals, original_normals;
+  std::vector<CrackPath> paths;
+  FacetBins bins;
+};
+
+std::vector<Vec<2>> segment_normals(const std::vector<Vec<2>>& vertices) {
+  std::vector<Vec<2>> normals;
+  for (std::size_t s = 0; s + 1 < vertices.size(); ++s) normals.push_back(segment_normal(vertices[s], vertices[s + 1]));
+  return normals;
+}
+
+template <class Shape>
+void view_cracks(CrackView& view, const State<2>& state, const Model<2>& model) {
+  for (const Crack<2>& crack : state.cracks.list) {
+    view.normals.push_back(segment_normals(crack.plane));
+    view.original_normals.push_back(segment_normals(crack.original));
+  }
+  for (std::size_t c = 0; c < state.cracks.size(); ++c) {
+    view.paths.push_back({state.cracks.list[c].plane, view.normals[c], state.cracks.list[c].closed, view.original_normals[c]});
+  }
+  constexpr int reach = Shape::width == 3 ? 1 : 0;
+  view.bins.build({model.grid.origin, model.grid.cell, model.grid.cells, reach, reach}, view.paths);
+}
+
+/// What one block finds out about its particles.
+template <int Dim, class Shape>
+class BlockAssignment {
+  using T = Tile<Dim, Shape>;
+
+ public:
+  BlockAssignment(const State<Dim>& state, const Model<Dim>& model, const CrackView& view, std::size_t b, BlockLayers<Dim>& layers,
+                  std::vector<CrossingSums>& crossing)
+      : state_(state), model_(model), view_(view), block_(state.blocks.list[b]), layers_(layers), crossing_(crossing) {}
+
+  bool needed() const {
+    if (!block_.has_particles()) return false;
+    const auto first = block_.first_node();
+    if constexpr (Dim == 2) {
+      const std::array<int, 2> low{first[0] - 2, first[1] - 2}, high{first[0] + block_side + 1, first[1] + block_side + 1};
+      if (view_.bins.any_in_box(low, high)) return true;
+    }
+    if constexpr (Shape::width == 3) {
+      for (const SymmetryPlane& plane : model_.symmetries) {
+        const double g = (plane.at - model_.grid.origin[plane.axis]) * model_.grid.inverse_cell[plane.axis] - first[plane.axis];
+        if (g > -3 && g < block_side + 3) return true;
+      }
+    }
+    return false;
+  }
+
+  /// False when a line crosses too many cracks or the block has too many layers.
+  bool run() {
+    const auto first = block_.first_node();
+    const std::uint32_t first_pack = state_.blocks.runs[block_.first_run].first_pack;
+    const std::uint32_t end_pack = state_.blocks.runs[block_.end_run - 1].end_pack;
+    layers_.special.assign(end_pack - first_pack, -1);
+    std::int32_t count = 0;
+    Stencil<Dim, Shape> stencil;
+    for (std::uint32_t k = first_pack; k < end_pack; ++k) {
+      Pack x[Dim];
+      state_.particles.pack_positions(k, x);
+      bool special = false;
+      for (int l = 0; l < lanes && !special; ++l) special = near_something(x, l);
+      if (!special) continue;
+      stencil.compute(x, model_.grid, first, HalfSize<Dim>{fill_half()});
+      layers_.special[k - first_pack] = count++;
+      for (int l = 0; l < lanes; ++l) assign(stencil, x, l, state_.particles.is_padding(std::size_t{k} * lanes + l));
+    }
+    if (count == 0) layers_.special.clear();
+    sort_layers();
+    return fits_;
+  }
+
+ private:
+  static HalfSize<Dim> fill_half() {
+    HalfSize<Dim> h;
+    h.fill(0.25);  // only base nodes are used here, and they do not depend on it
+    return h;
+  }
+  IndexVector<Dim> cell_of(const Pack* x, int l) const {
+    IndexVector<Dim> cell{};
+    for (int k = 0; k < Dim; ++k) {
+      cell[k] = static_cast<int>(std::floor((x[k][l] - model_.grid.origin[k]) * model_.grid.inverse_cell[k]));
+    }
+    return cell;
+  }
+  bool near_something(const Pack* x, int l) const {
+    if constexpr (Dim == 2) {
+      const auto cell = cell_of(x, l);
+      if (!view_.bins.empty() && !view_.bins.facets_of_cell(cell[0], cell[1]).empty()) return true;
+    }
+    if constexpr (Shape::width == 3) {
+      for (const SymmetryPlane& p : model_.symmetries) {
+        if (std::fabs(x[p.axis][l] - p.at) < 1.5 * model_.grid.cell[p.axis]) return true;
+      }
+    }
+    return false;
+  }
+
+  void assign(const Stencil<Dim, Shape>& stencil, const Pack* x, int l, bool padding) {
+    const auto first = block_.first_node();
+    Vec<Dim> x_p;
+    for (int k = 0; k < Dim; ++k) x_p[k] = x[k][l];
+    std::array<PairTarget, T::stencil> target;
+    std::array<Signature, T::stencil> signature;
+    std::array<Vec<Dim>, T::stencil> x_i;
+    const auto lowest = unflatten<Dim>(stencil.base[l], T::side);
+    for (int n = 0; n < T::stencil; ++n) {
+      auto node = unflatten<Dim>(n, Shape::width);
+      for (int k = 0; k < Dim; ++k) node[k] += lowest[k] + first[k] - T::offset;
+      x_i[n] = model_.grid.node_position(node);
+      target[n] = {static_cast<std::uint16_t>(stencil.base[l] + T::steps[n]), 0, 0};
+      fold(x_p, node, x_i[n], target[n]);
+    }
+    if constexpr (Dim == 2) {
+      if (!view_.bins.empty()) cross(x, l, x_p, x_i, target, signature, padding);
+    }
+    for (int n = 0; n < T::stencil; ++n) {
+      if (!signature[n].empty()) {
+        const int layer = layer_number(signature[n]);
+        target[n].layer = static_cast<std::uint8_t>(layer);
+        layers_.tile_box[static_cast<std::size_t>(layer) - 1].include(unflatten<Dim>(target[n].node, T::side));
+      }
+      layers_.targets.push_back(target[n]);
+    }
+  }
+
+  /// CONVENTIONS 29: a pair whose node lies beyond a symmetry plane goes to the mirror node.
+  void fold(const Vec<Dim>& x_p, IndexVector<Dim> node, Vec<Dim>& x_i, PairTarget& target) const {
+    for (const SymmetryPlane& plane : model_.symmetries) {
+      if (target.flip >> plane.axis & 1u || !folds<Dim>(plane, x_p, x_i)) continue;
+      const int on = static_cast<int>(std::lround((plane.at - model_.grid.origin[plane.axis]) * model_.grid.inverse_cell[plane.axis]));
+      const int mirror = 2 * on - node[plane.axis];
+      target.node = static_cast<std::uint16_t>(target.node + (mirror - node[plane.axis]) * power(T::side, plane.axis));
+      target.flip = static_cast<std::uint8_t>(target.flip | 1u << plane.axis);
+      node[plane.axis] = mirror;
+      x_i[plane.axis] = model_.grid.node_coordinate(plane.axis, mirror);
+    }
+  }
+
+  void cross(const Pack* x, int l, const Vec<2>& x_p, const std::array<Vec<2>, T::stencil>& x_i,
+             const std::array<PairTarget, T::stencil>& target, std::array<Signature, T::stencil>& signature, bool padding) {
+    const auto cell = cell_of(x, l);
+    const auto facets = view_.bins.facets_of_cell(cell[0], cell[1]);
+    std::array<Crossing, T::stencil> crossings;
+    for (std::size_t f = 0; f < facets.size();) {
+      const CrackId c = facets[f].crack;
+      const std::size_t first = f;
+      while (f < facets.size() && facets[f].crack == c) ++f;
+      cross_stencil(view_.paths[c], facets.subspan(first, f - first), x_p, x_i, crossings);
+      for (int n = 0; n < T::stencil; ++n) {
+        if (!crossings[n].crosses()) continue;
+        fits_ = signature[n].append(c) && fits_;
+        // Padding follows the particle it sits on, but is not a pair of its own.
+        if (!padding) add_crossing(c, target[n].node, crossings[n]);
+      }
+    }
+  }
+
+  void add_crossing(CrackId c, int node, const Crossing& crossing) {
+    std::size_t k = 0;
+    while (k < cracks_.size() && cracks_[k] != c) ++k;
+    if (k == cracks_.size()) {
+      cracks_.push_back(c);
+      sums_.emplace_back(T::nodes, CrossingSums{});
+    }
+    CrossingSums& sum = sums_[k][static_cast<std::size_t>(node)];
+    sum.r[0] += Pack{crossing.normal_sum[0], crossing.normal_sum[1], double(crossing.side()), 1.};
+    sum.r[1] += Pack{crossing.original_sum[0], crossing.original_sum[1], 0., 0.};
+  }
+
+  int layer_number(const Signature& s) {
+    const int found = layer_of<Dim>(layers_.tile, s);
+    if (found >= 0) return found;
+    if (layers_.tile.size() == 255) {
+      fits_ = false;
+      return 1;
+    }
+    layers_.tile.push_back(s);
+    layers_.tile_box.emplace_back();
+    return static_cast<int>(layers_.tile.size()) - 1;
+  }
+
+  /// Layers in the order of their signatures, cracks in the order of their ids: no trace of the order of discovery.
+  void sort_layers() {
+    std::vector<std::size_t> order(layers_.tile.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return layers_.tile[a] < layers_.tile[b]; });
+    std::vector<Signature> tile;
+    std::vector<TileBox<Dim>> boxes;
+    std::vector<std::uint8_t> rank(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      rank[order[i]] = static_cast<std::uint8_t>(i);
+      tile.push_back(layers_.tile[order[i]]);
+      if (i > 0) boxes.push_back(layers_.tile_box[order[i] - 1]);
+    }
+    layers_.tile = std::move(tile);
+    layers_.tile_box = std::move(boxes);
+    for (PairTarget& t : layers_.targets) t.layer = rank[t.layer];
+
+    std::vector<std::size_t> by_id(cracks_.size());
+    for (std::size_t i = 0; i < by_id.size(); ++i) by_id[i] = i;
+    std::sort(by_id.begin(), by_id.end(), [&](std::size_t a, std::size_t b) { return cracks_[a] < cracks_[b]; });
+    for (const std::size_t i : by_id) {
+      layers_.tile_cracks.push_back(cracks_[i]);
+      crossing_.insert(crossing_.end(), sums_[i].begin(), sums_[i].end());
+    }
+  }
+
+  const State<Dim>& state_;
+  const Model<Dim>& model_;
+  const CrackView& view_;
+  const Block<Dim>& block_;
+  BlockLayers<Dim>& layers_;
+  std::vector<CrossingSums>& crossing_;
+  std::vector<CrackId> cracks_;
+  std::vector<std::vector<CrossingSums>> sums_;
+  bool fits_ = true;
+};
+
+/// Layers at the own nodes of a block: all that reach it from tiles around.
+template <int Dim, class Shape>
+void find_node_layers(State<Dim>& state, std::size_t b) {
+  BlockLayers<Dim>& own = state.nodes.layers[b];
+  own.node.assign(1, Signature{});
+  own.node_cracks.clear();
+  for (int o = 0; o < neighbour_count<Dim>; ++o) {
+    const std::uint32_t c = state.blocks.list[b].neighbours[o];
+    if (c == no_block) continue;
+    const BlockLayers<Dim>& there = state.nodes.layers[c];
+    for (std::size_t l = 1; l < there.tile.size(); ++l) {
+      if (Overlap<Dim, Shape>(neighbour_step<Dim>(o), there.tile_box[l - 1]).empty) continue;
+      if (layer_of<Dim>(own.node, there.tile[l]) < 0) own.node.push_back(there.tile[l]);
+    }
+    own.node_cracks.insert(own.node_cracks.end(), there.tile_cracks.begin(), there.tile_cracks.end());
+  }
+  std::sort(own.node.begin(), own.node.end());
+  std::sort(own.node_cracks.begin(), own.node_cracks.end());
+  own.node_cracks.erase(std::unique(own.node_cracks.begin(), own.node_cracks.end()), own.node_cracks.end());
+}
+
+/// Does a tile reach own nodes, of some block around it, that hold several layers?
+template <int Dim, class Shape>
+bool reaches_cracked_nodes(const State<Dim>& state, std::size_t b) {
+  const Block<Dim>& block = state.blocks.list[b];
+  if (!block.has_particles()) return false;
+  for (int o = 0; o < neighbour_count<Dim>; ++o) {
+    const std::uint32_t c = block.neighbours[o];
+    if (c == no_block || state.nodes.layers[c].node.size() == 1) continue;
+    IndexVector<Dim> step = neighbour_step<Dim>(o);
+    for (int k = 0; k < Dim; ++k) step[k] = -step[k];
+    if (!Overlap<Dim, Shape>(step, block.touched).empty) return true;
+  }
+  return false;
+}
+
+template <int Dim>
+void reset_layers(BlockLayers<Dim>& layers) {
+  layers.tile.assign(1, Signature{});
+  layers.tile_box.clear();
+  layers.tile_cracks.clear();
+  layers.targets.clear();
+  layers.special.clear();
+}
+
+template <int Dim, class Shape>
+void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::vector<CrossingSums>>& crossing) {
+  Nodes<Dim>& nodes = state.nodes;
+  const std::size_t blocks = state.blocks.size();
+  const bool cracked = !state.cracks.empty();
+  if (cracked) {
+    parallel_for(blocks, model.threads, [&](std::size_t b) { find_node_layers<Dim, Shape>(state, b); });
+    parallel_for(blocks, model.threads, [&](std::size_t b) { nodes.layers[b].sums_contact = reaches_cracked_nodes<Dim, Shape>(state, b); });
+  }
+  nodes.tile_slots = nodes.node_slots = nodes.crossing_tile_slots = nodes.crossing_node_slots = 0;
+  for (BlockLayers<Dim>& l : nodes.layers) {
+    l.tile_begin = static_cast<std::uint32_t>(nodes.tile_slots);
+    l.node_begin = static_cast<std::uint32_t>(nodes.node_slots);
+    l.crossing_tile_begin = static_cast<std::uint32_t>(nodes.crossing_tile_slots);
+    l.crossing_node_begin = static_cast<std::uint32_t>(nodes.crossing_node_slots);
+    nodes.tile_slots += l.tile.size();
+    nodes.node_slots += l.node.size();
+    nodes.crossing_tile_slots += l.tile_cracks.size();
+    nodes.crossing_node_slots += l.node_cracks.size();
+  }
+  using T = Tile<Dim, Shape>;
+  nodes.tile_momentum.resize_discarding(nodes.tile_slots * T::nodes);
+  nodes.tile_force.resize_discarding(nodes.tile_slots * T::nodes);
+  nodes.momentum.resize_discarding(nodes.node_slots * block_nodes<Dim>);
+  nodes.force.resize_discarding(nodes.node_slots * block_nodes<Dim>);
+  nodes.velocity.resize_discarding(nodes.node_slots * block_nodes<Dim>);
+  nodes.motion.resize_discarding(nodes.node_slots * block_nodes<Dim>);
+  if (!cracked) return;
+  nodes.tile_contact.resize_discarding(nodes.tile_slots * T::nodes);
+  nodes.contact.resize_discarding(nodes.node_slots * block_nodes<Dim>);
+  nodes.tile_crossing.resize_discarding(nodes.crossing_tile_slots * T::nodes);
+  nodes.crossing.resize_discarding(nodes.crossing_node_slots * block_nodes<Dim>);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    std::copy(crossing[b].begin(), crossing[b].end(), nodes.tile_crossing.begin() + nodes.layers[b].crossing_tile_begin * T::nodes);
+  }
+}
+
+}  // namespace
+
+template <int Dim, class Shape>
+void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model) {
+  CrackView view;
+  if constexpr (Dim == 2) {
+    if (!state.cracks.empty()) view_cracks<Shape>(view, state, model);
+  }
+  std::vector<std::vector<CrossingSums>> crossing(state.blocks.size());
+  std::atomic<bool> fits{true};
+  if (!state.cracks.empty() || !model.symmetries.empty()) {
+    parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) {
+      BlockLayers<Dim>& layers = state.nodes.layers[b];
+      reset_layers(layers);
+      BlockAssignment<Dim, Shape> assignment(state, model, view, b, layers, crossing[b]);
+      if (assignment.needed() && !assignment.run()) fits = false;
+    });
+  }
+  if (!fits) {
+    throw RunError("more than " + std::to_string(Signature::capacity) +
+                   " cracks lie between a particle and a node of its stencil, or a block of cells holds more than 255 velocity fields; "
+                   "use smaller cells or fewer cracks at one place");
+  }
+  lay_out<Dim, Shape>(state, model, crossing);
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void assign_velocity_fields<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
+CRAMPON_INSTANTIATE(2, LinearShape)
+CRAMPON_INSTANTIATE(2, GimpShape)
+CRAMPON_INSTANTIATE(2, BsplineShape)
+CRAMPON_INSTANTIATE(3, LinearShape)
+CRAMPON_INSTANTIATE(3, GimpShape)
+CRAMPON_INSTANTIATE(3, BsplineShape)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

@@ -1,0 +1,151 @@
+#include "crampon/step/boundary.hpp"
+
+#include <algorithm>
+
+namespace crampon {
+
+namespace {
+
+template <int Dim>
+Vec<3> node_place(const State<Dim>& state, const Model<Dim>& model, std::size_t block, int node) {
+  const auto first = state.blocks.list[block].first_node();
+  const auto local = unflatten<Dim>(node, block_side);
+  Vec<3> x;
+  for (int k = 0; k < Dim; ++k) x[k] = model.grid.node_coordinate(k, first[k] + local[k]);
+  return x;
+}
+
+/// f(component, slot index into nodal arrays, index into p_int) for the active fixed components of a block, in all its layers.
+template <int Dim, class F>
+void for_fixed(State<Dim>& state, std::size_t b, F f) {
+  auto& scratch = state.scratch[b];
+  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  const std::size_t count = scratch.fixed.size();
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    for (std::size_t i = 0; i < count; ++i) {
+      FixedComponent& c = scratch.fixed[i];
+      if (!c.active) continue;
+      // Of several conditions on one component the last one stated holds.
+      if (i + 1 < count && scratch.fixed[i + 1].node == c.node && scratch.fixed[i + 1].axis == c.axis && scratch.fixed[i + 1].active) continue;
+      f(c, (layers.node_begin + l) * block_nodes<Dim> + c.node, l * count + i);
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt) {
+  const double t_old = state.time, t_new = state.time + dt;
+  struct Value {
+    bool active = false, fresh = false, everywhere = false;
+    double v_old = 0, v_new = 0;
+  };
+  std::vector<std::vector<Value>> values(model.conditions.size());
+  state.condition_was_active.resize(model.conditions.size(), false);
+  for (std::size_t c = 0; c < model.conditions.size(); ++c) {
+    const auto& condition = model.conditions[c];
+    // A step belongs to the condition when it starts within its time.
+    const bool active = t_old >= condition.start - 1e-9 * dt && t_old < condition.end - 1e-9 * dt;
+    for (const auto& component : condition.components) {
+      Value v{active, active && !state.condition_was_active[c], !component.value.depends_on_position(), 0, 0};
+      if (v.everywhere && active) v.v_old = component.value(t_old, {}), v.v_new = component.value(t_new, {});
+      values[c].push_back(v);
+    }
+    state.condition_was_active[c] = active;
+  }
+  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
+    for (FixedComponent& f : state.scratch[b].fixed) {
+      const Value& v = values[f.condition][f.component];
+      f.active = v.active;
+      f.fresh = v.fresh;
+      f.v_old = v.v_old;
+      f.v_new = v.v_new;
+      if (v.active && !v.everywhere) {
+        const ValueFunction& value = model.conditions[f.condition].components[f.component].value;
+        const Vec<3> x = node_place(state, model, b, f.node);
+        f.v_old = value(t_old, x);
+        f.v_new = value(t_new, x);
+      }
+    }
+  }
+}
+
+template <int Dim>
+void impose_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  auto& scratch = state.scratch[b];
+  if (scratch.fixed.empty()) return;
+  scratch.p_int.assign(scratch.fixed.size() * state.nodes.layers[b].node.size(), 0.);
+  for_fixed(state, b, [&](FixedComponent& c, std::size_t i, std::size_t kept) {
+    Pack& p = state.nodes.momentum[i];
+    scratch.p_int[kept] = p[c.axis];
+    const bool symmetry = model.conditions[c.condition].symmetry;
+    // A component prescribed for the first time starts from what the body does (contact-consistency.md).
+    if (!symmetry && c.fresh && model.fixed_force == FixedForce::incremental) return;
+    p[c.axis] = symmetry ? 0. : p[Dim] * c.v_old;
+  });
+}
+
+template <int Dim>
+void impose_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  auto& scratch = state.scratch[b];
+  for_fixed(state, b, [&](FixedComponent& c, std::size_t i, std::size_t kept) {
+    Pack& p = state.nodes.momentum[i];
+    NodalVector<Dim>& f = state.nodes.force[i];
+    const bool symmetry = model.conditions[c.condition].symmetry;
+    const double free = f[c.axis];
+    double fixed = 0;
+    if (!symmetry) {
+      switch (model.fixed_force) {
+        case FixedForce::incremental:
+          fixed = (p[Dim] * c.v_new - p[c.axis]) / dt;  // p is m V_old, or p_int in the first step
+          break;
+        case FixedForce::n13:
+          fixed = (p[Dim] * c.v_new - scratch.p_int[kept]) / dt;  // N13 Eq. 1
+          p[c.axis] = scratch.p_int[kept];                       // the p_k of N13 Eq. 2
+          break;
+        case FixedForce::zero:
+          break;  // N03 Task 3
+      }
+    }
+    f[c.axis] = fixed;
+    const double reaction = fixed - free;
+    auto& reactions = scratch.ledger.reactions;
+    auto at = std::find_if(reactions.begin(), reactions.end(), [&](const auto& r) { return r.condition == c.condition; });
+    if (at == reactions.end()) at = reactions.insert(reactions.end(), {c.condition, {}});
+    at->force[c.axis] += reaction;
+    if (!symmetry) scratch.ledger.boundary_work += reaction * 0.5 * (c.v_old + c.v_new) * dt;
+  });
+}
+
+template <int Dim>
+void impose_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  if (state.scratch[b].fixed.empty()) return;
+  for_fixed(state, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
+    Pack& p = state.nodes.momentum[i];
+    p[c.axis] = model.conditions[c.condition].symmetry ? 0. : p[Dim] * c.v_new;
+  });
+}
+
+template <int Dim>
+unsigned fixed_axes(const State<Dim>& state, std::size_t b, int node) {
+  unsigned axes = 0;
+  const auto& fixed = state.scratch[b].fixed;
+  auto at = std::lower_bound(fixed.begin(), fixed.end(), node, [](const FixedComponent& c, int n) { return c.node < n; });
+  for (; at != fixed.end() && at->node == node; ++at) {
+    if (at->active) axes |= 1u << at->axis;
+  }
+  return axes;
+}
+
+#define CRAMPON_INSTANTIATE(DIM)                                                             \
+  template void evaluate_conditions<DIM>(State<DIM>&, const Model<DIM>&, double);            \
+  template void impose_start_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);      \
+  template void impose_forces<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double);     \
+  template void impose_end_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);        \
+  template unsigned fixed_axes<DIM>(const State<DIM>&, std::size_t, int);
+CRAMPON_INSTANTIATE(2)
+CRAMPON_INSTANTIATE(3)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

@@ -1,0 +1,32 @@
+#pragma once
+/// Nodal velocity conditions, consistent in momentum and force (N13 sec. 2.3-2.7; contact-consistency.md, last section;
+/// CONVENTIONS 26-31), and symmetry planes.
+///
+/// A value belongs to the time of the momentum it is given to: the start of the step in Task 2, its end in Tasks 3 to 6.
+
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// Values of all fixed components at the start and the end of the step; serial, as expressions are evaluated here.
+template <int Dim>
+void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt);
+
+/// Task 2: keeps p_int and gives fixed components the prescribed momentum at the start of the step. Own nodes of one block.
+template <int Dim>
+void impose_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block);
+
+/// Task 3: the force on fixed components; books reactions. Restores p_int where the rule asks for it (CONVENTIONS 27).
+template <int Dim>
+void impose_forces(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt);
+
+/// Task 6: the prescribed momentum at the end of the step.
+template <int Dim>
+void impose_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block);
+
+/// Bit k: component k of this own node is fixed in this step.
+template <int Dim>
+unsigned fixed_axes(const State<Dim>& state, std::size_t block, int node);
+
+}  // namespace crampon

@@ -1,0 +1,117 @@
+#include "crampon/step/ledger.hpp"
+
+#include <algorithm>
+
+#include "crampon/core/parallel.hpp"
+#include "crampon/step/instantiate.hpp"
+#include "crampon/step/packs.hpp"
+
+namespace crampon {
+
+template <int Dim>
+void evaluate_loads(const State<Dim>& state, const Model<Dim>& model, std::vector<Vec<Dim>>& loads, Vec<Dim>& body_force, double& damping) {
+  loads.assign(model.loads.size(), {});
+  for (std::size_t l = 0; l < model.loads.size(); ++l) {
+    for (int k = 0; k < Dim; ++k) loads[l][k] = model.loads[l].value[static_cast<std::size_t>(k)](state.time, {});
+  }
+  body_force = {};
+  for (std::size_t k = 0; k < model.body_force.size(); ++k) body_force[k] = model.body_force[k](state.time, {});
+  damping = model.damped ? model.damping(state.time, {}) : 0.;
+}
+
+template <int Dim, class Shape>
+void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
+  using T = Tile<Dim, Shape>;
+  if (state.step != 0 || state.cracks.empty() || model.contact.detection != ContactDetection::volume ||
+      model.contact.reference_volume != ReferenceVolume::initial) {
+    return;
+  }
+  std::int64_t total = 1;
+  for (int k = 0; k < Dim; ++k) total *= std::int64_t{model.grid.blocks[k]} * block_side;
+  state.initial_volume.assign(static_cast<std::size_t>(total), 0.);
+  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
+    if (!state.blocks.list[b].has_particles()) continue;
+    const auto first = state.blocks.list[b].first_node();
+    for_packs<Dim, Shape>(state, model, b,
+                          [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget*, const Run& run) {
+                            for (int l = 0; l < lanes; ++l) {
+                              const double V_p = state.particles.volume(std::size_t{pack} * lanes + l) / model.materials[run.material].thickness;
+                              const auto lowest = unflatten<Dim>(stencil.base[l], T::side);
+                              for (int n = 0; n < T::stencil; ++n) {
+                                auto node = unflatten<Dim>(n, Shape::width);
+                                for (int k = 0; k < Dim; ++k) node[k] += lowest[k] + first[k] - T::offset;
+                                state.initial_volume[static_cast<std::size_t>(model.grid.node_number(node))] += V_p * stencil.S[n][l];
+                              }
+                            }
+                          });
+  }
+}
+
+template <int Dim>
+void close_ledger(State<Dim>& state, const Model<Dim>& model) {
+  state.reactions.assign(model.conditions.size(), {});
+  std::int64_t unsolved = 0, crowded = 0;
+  for (auto& scratch : state.scratch) {
+    BlockLedger<Dim>& ledger = scratch.ledger;
+    state.energy.load_work += ledger.load_work;
+    state.energy.body_work += ledger.body_work;
+    state.energy.boundary_work += ledger.boundary_work;
+    state.energy.damping += ledger.damping;
+    state.energy.contact_loss += ledger.contact_loss;
+    for (const auto& r : ledger.reactions) state.reactions[r.condition] += r.force;
+    unsolved += ledger.unsolved_nodes;
+    crowded += ledger.crowded_nodes;
+    if (scratch.health.left_margin) state.must_reorder = true;
+    ledger.clear();
+  }
+  state.most_unsolved_nodes = std::max(state.most_unsolved_nodes, unsolved);
+  state.most_crowded_nodes = std::max(state.most_crowded_nodes, crowded);
+}
+
+template <int Dim>
+ParticleSums<Dim> sum_particles(const State<Dim>& state, const Model<Dim>& model) {
+  std::vector<ParticleSums<Dim>> parts(state.blocks.runs.size());
+  const Particles<Dim>& particles = state.particles;
+  parallel_for(parts.size(), model.threads, [&](std::size_t r) {
+    const Run& run = state.blocks.runs[r];
+    ParticleSums<Dim>& sum = parts[r];
+    for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
+      const PackReport report = model.materials[run.material].law->report(
+          model.stress_state, Dim, &particles.stress[k * stress_size<Dim>], particles.history.data() + k * particles.history_size);
+      const Pack strain = report.energy * particles.mass_volume[2 * k + 1];
+      for (int l = 0; l < lanes; ++l) {
+        const std::size_t p = k * lanes + l;
+        if (particles.is_padding(p)) continue;
+        const double m = particles.mass(p);
+        const Vec<Dim> v = particles.velocity(p), x = particles.position(p);
+        sum.mass += m;
+        sum.kinetic += 0.5 * m * dot(v, v);
+        sum.strain += strain[l];
+        sum.momentum += v * m;
+        sum.angular += m * (x[0] * v[1] - x[1] * v[0]);
+      }
+    }
+  });
+  ParticleSums<Dim> total;
+  for (const auto& part : parts) {
+    total.mass += part.mass;
+    total.kinetic += part.kinetic;
+    total.strain += part.strain;
+    total.momentum += part.momentum;
+    total.angular += part.angular;
+  }
+  return total;
+}
+
+#define CRAMPON_INSTANTIATE(DIM)                                                                                                  \
+  template void evaluate_loads<DIM>(const State<DIM>&, const Model<DIM>&, std::vector<Vec<DIM>>&, Vec<DIM>&, double&);            \
+  template void close_ledger<DIM>(State<DIM>&, const Model<DIM>&);                                                                \
+  template ParticleSums<DIM> sum_particles<DIM>(const State<DIM>&, const Model<DIM>&);
+CRAMPON_INSTANTIATE(2)
+CRAMPON_INSTANTIATE(3)
+#undef CRAMPON_INSTANTIATE
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void record_initial_volume<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

@@ -1,0 +1,32 @@
+#pragma once
+/// What loads do in a step, and the energy books of the run (fracture.md 8).
+
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// Loads (N per share), body force (m/s2) and damping (1/s) at the start of the step.
+template <int Dim>
+void evaluate_loads(const State<Dim>& state, const Model<Dim>& model, std::vector<Vec<Dim>>& loads, Vec<Dim>& body_force, double& damping);
+
+/// In the first step, and when contact by volume is measured against the body as it was: nodal volumes of the uncut body at the
+/// start, sum V_p S (CONVENTIONS 10).
+template <int Dim, class Shape>
+void record_initial_volume(State<Dim>& state, const Model<Dim>& model);
+
+/// Adds up the blocks' sums of the step in block order and clears them; decides whether particles are re-ordered.
+template <int Dim>
+void close_ledger(State<Dim>& state, const Model<Dim>& model);
+
+/// Kinetic and strain energy of all particles, J, and their momentum, kg m/s.
+template <int Dim>
+struct ParticleSums {
+  double mass = 0, kinetic = 0, strain = 0;
+  Vec<Dim> momentum;
+  double angular = 0;  ///< z component about the origin, kg m2/s
+};
+template <int Dim>
+ParticleSums<Dim> sum_particles(const State<Dim>& state, const Model<Dim>& model);
+
+}  // namespace crampon

@@ -1,0 +1,150 @@
+#include "crampon/step/nodes_phase.hpp"
+
+#include "crampon/step/adjust_contact.hpp"
+#include "crampon/step/assemble.hpp"
+#include "crampon/step/boundary.hpp"
+#include "crampon/step/instantiate.hpp"
+
+namespace crampon {
+
+namespace {
+
+template <int Dim>
+std::size_t first_node_of(const State<Dim>& state, std::size_t b, std::size_t layer) {
+  return (state.nodes.layers[b].node_begin + layer) * block_nodes<Dim>;
+}
+
+template <int Dim, class Shape>
+void assemble_momentum(State<Dim>& state, std::size_t b) {
+  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    assemble_layer<Dim, Shape>(state, b, layers.node[l], state.nodes.tile_momentum, &state.nodes.momentum[first_node_of(state, b, l)]);
+  }
+}
+
+template <int Dim, class Shape>
+void assemble_contact_sums(State<Dim>& state, std::size_t b) {
+  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  if (layers.node.size() < 2) return;
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    assemble_layer<Dim, Shape>(state, b, layers.node[l], state.nodes.tile_contact, &state.nodes.contact[first_node_of(state, b, l)], true);
+  }
+  // Normals belong to cracks, not to layers, and are kept for the whole tile.
+  for (std::size_t c = 0; c < layers.node_cracks.size(); ++c) {
+    CrossingSums* out = &state.nodes.crossing[(layers.crossing_node_begin + c) * block_nodes<Dim>];
+    std::memset(static_cast<void*>(out), 0, sizeof(CrossingSums) * block_nodes<Dim>);
+    for (int o = 0; o < neighbour_count<Dim>; ++o) {
+      const std::uint32_t there = state.blocks.list[b].neighbours[o];
+      if (there == no_block) continue;
+      const BlockLayers<Dim>& tile = state.nodes.layers[there];
+      const auto at = std::lower_bound(tile.tile_cracks.begin(), tile.tile_cracks.end(), layers.node_cracks[c]);
+      if (at == tile.tile_cracks.end() || *at != layers.node_cracks[c]) continue;
+      const CrossingSums* sums =
+          &state.nodes.tile_crossing[(tile.crossing_tile_begin + static_cast<std::size_t>(at - tile.tile_cracks.begin())) * Tile<Dim, Shape>::nodes];
+      Overlap<Dim, Shape>(neighbour_step<Dim>(o), whole_tile<Dim, Shape>()).rows([&](int local, int t, int count) {
+        for (int i = 0; i < count; ++i) add_record(out[local + i], sums[t + i]);
+      });
+    }
+  }
+}
+
+/// v = p/m, zero where there is no mass.
+template <int Dim>
+void find_velocities(State<Dim>& state, std::size_t b) {
+  const std::size_t first = first_node_of(state, b, 0), end = first_node_of(state, b, state.nodes.layers[b].node.size());
+  for (std::size_t i = first; i < end; ++i) {
+    const Pack p = state.nodes.momentum[i];
+    state.nodes.velocity[i] = leading<Dim>(p * splat(p[Dim] > 0 ? 1 / p[Dim] : 0.));
+  }
+}
+
+}  // namespace
+
+template <int Dim, class Shape>
+void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  assemble_momentum<Dim, Shape>(state, b);
+  if (!state.cracks.empty()) {
+    assemble_contact_sums<Dim, Shape>(state, b);
+    find_contacts(state, model, b);
+  }
+  if (model.boundary_order == BoundaryOrder::contact_first) {
+    adjust_contact(state, model, b, ContactTask::two, dt);  // N13 sec. 2.3
+    impose_start_momenta(state, model, b);
+  } else {
+    impose_start_momenta(state, model, b);  // N03 Task 2
+    adjust_contact(state, model, b, ContactTask::two, dt);
+  }
+  find_velocities(state, b);
+}
+
+template <int Dim, class Shape>
+void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const Vec<Dim>& body_force, double damping) {
+  Nodes<Dim>& nodes = state.nodes;
+  const BlockLayers<Dim>& layers = nodes.layers[b];
+  NodalVector<Dim> gravity = splat_as<NodalVector<Dim>>(0.);
+  for (int k = 0; k < Dim; ++k) gravity[k] = body_force[k];
+  const bool accounts = damping != 0 || model.any_body_force();
+  static thread_local std::vector<NodalVector<Dim>> start_velocity;
+  const std::size_t first = first_node_of(state, b, 0), end = first_node_of(state, b, layers.node.size());
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_force, &nodes.force[first_node_of(state, b, l)]);
+  }
+  if (accounts) {
+    start_velocity.resize(end - first);
+    for (std::size_t i = first; i < end; ++i) {
+      const Pack p = nodes.momentum[i];
+      nodes.force[i] += splat_as<NodalVector<Dim>>(p[Dim]) * gravity - splat_as<NodalVector<Dim>>(damping) * leading<Dim>(p);
+      start_velocity[i - first] = nodes.velocity[i];
+    }
+  }
+  impose_forces(state, model, b, dt);
+  for (std::size_t i = first; i < end; ++i) {
+    Pack& p = nodes.momentum[i];
+    for (int k = 0; k < Dim; ++k) p[k] += dt * nodes.force[i][k];
+  }
+  adjust_contact(state, model, b, ContactTask::four, dt);
+  for (std::size_t i = first; i < end; ++i) {
+    const Pack p = nodes.momentum[i];
+    const double inverse = p[Dim] > 0 ? 1 / p[Dim] : 0.;
+    const NodalVector<Dim> v = leading<Dim>(p * splat(inverse)), a = nodes.force[i] * splat_as<NodalVector<Dim>>(inverse);
+    nodes.velocity[i] = v;
+    if constexpr (Dim == 2) {
+      nodes.motion[i].r[0] = Pack{v[0], v[1], a[0], a[1]};
+    } else {
+      nodes.motion[i].r[0] = v;
+      nodes.motion[i].r[1] = a;
+    }
+  }
+  if (!accounts) return;
+  BlockLedger<Dim>& ledger = state.scratch[b].ledger;
+  for (std::size_t i = first; i < end; ++i) {
+    const double m = nodes.momentum[i][Dim];
+    const NodalVector<Dim> v = 0.5 * (start_velocity[i - first] + nodes.velocity[i]);
+    for (int k = 0; k < Dim; ++k) {
+      ledger.body_work += dt * m * gravity[k] * v[k];
+      ledger.damping += dt * damping * m * start_velocity[i - first][k] * v[k];
+    }
+  }
+}
+
+template <int Dim, class Shape>
+void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  assemble_momentum<Dim, Shape>(state, b);
+  if (model.boundary_order == BoundaryOrder::contact_first) {
+    adjust_contact(state, model, b, ContactTask::six, dt);
+    impose_end_momenta(state, model, b);  // CONVENTIONS 28
+  } else {
+    impose_end_momenta(state, model, b);
+    adjust_contact(state, model, b, ContactTask::six, dt);
+  }
+  find_velocities(state, b);
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                    \
+  template void settle_start_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);     \
+  template void update_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const Vec<DIM>&, double); \
+  template void settle_end_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

@@ -1,0 +1,22 @@
+#pragma once
+/// The work on nodes between the passes over particles: assembly, contact, boundary conditions, momenta. Own nodes of one block each.
+
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// Tasks 1 and 2: assembles momenta, finds contacts, adjusts them, imposes velocities; leaves nodal velocities.
+template <int Dim, class Shape>
+void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt);
+
+/// Tasks 3 and 4: assembles forces, adds body force and damping, imposes boundary forces, updates momenta (N03 Eqs. 28, 29),
+/// adjusts contact in momentum and force; leaves {v', a} and the velocities v'. body_force: m/s2 at the start of the step; damping: 1/s.
+template <int Dim, class Shape>
+void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt, const Vec<Dim>& body_force, double damping);
+
+/// Task 6: assembles the re-extrapolated momenta (N03 Eq. 31), adjusts contact, imposes velocities; leaves nodal velocities.
+template <int Dim, class Shape>
+void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt);
+
+}  // namespace crampon

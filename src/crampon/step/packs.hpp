@@ -1,0 +1,164 @@
+#pragma once
+/// The walk over the particles of a block, pack by pack, with S_ip and G_ip at hand. Every particle loop of the step is one of these.
+
+#include "crampon/shape/stencil.hpp"
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// f(pack, stencil, targets, run): targets is null for packs whose pairs all go to their own node in layer 0, else
+/// [lane][stencil node] says where each pair goes.
+template <int Dim, class Shape, class F>
+void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
+  const Block<Dim>& block = state.blocks.list[b];
+  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  const auto first_node = block.first_node();
+  const std::uint32_t first_pack = state.blocks.runs[block.first_run].first_pack;
+  Stencil<Dim, Shape> stencil;
+  for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
+    const Run& run = state.blocks.runs[r];
+    const HalfSize<Dim>& half_size = model.materials[run.material].half_size;
+    for (std::uint32_t k = run.first_pack; k < run.end_pack; ++k) {
+      Pack x[Dim];
+      state.particles.pack_positions(k, x);
+      stencil.compute(x, model.grid, first_node, half_size);
+      const std::int32_t special = layers.special.empty() ? -1 : layers.special[k - first_pack];
+      const PairTarget* targets =
+          special < 0 ? nullptr : &layers.targets[static_cast<std::size_t>(special) * lanes * Stencil<Dim, Shape>::count];
+      f(k, stencil, targets, run);
+    }
+  }
+}
+
+/// f(loaded, stencil, lane, targets) for the particles of a block that loads act on.
+template <int Dim, class Shape, class F>
+void for_loaded(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
+  const Block<Dim>& block = state.blocks.list[b];
+  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  Stencil<Dim, Shape> stencil;
+  for (const LoadedParticle<Dim>& loaded : state.scratch[b].loaded) {
+    const std::uint32_t pack = loaded.slot / lanes;
+    const Run* run = &state.blocks.runs[block.first_run];
+    while (pack >= run->end_pack) ++run;
+    Pack x[Dim];
+    state.particles.pack_positions(pack, x);
+    stencil.compute(x, model.grid, block.first_node(), model.materials[run->material].half_size);
+    const std::int32_t special = layers.special.empty() ? -1 : layers.special[pack - state.blocks.runs[block.first_run].first_pack];
+    const PairTarget* targets =
+        special < 0 ? nullptr : &layers.targets[static_cast<std::size_t>(special) * lanes * Stencil<Dim, Shape>::count];
+    f(loaded, stencil, static_cast<int>(loaded.slot % lanes), targets);
+  }
+}
+
+/// Signs by which a folded pair exchanges vectors (CONVENTIONS 29).
+template <class V>
+inline V flipped(V a, unsigned flip) {
+  if (flip == 0) return a;
+  V sign = splat_as<V>(1.);
+  for (unsigned k = 0; k < sizeof(V) / sizeof(double); ++k) {
+    if (flip >> k & 1u) sign[k] = -1.;
+  }
+  return a * sign;
+}
+
+/// Adds S_ip * record to every node of a pack's stencils (N03 Eq. 26 when the record is {m v, m}).
+template <int Dim, class Shape>
+inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, const Pack* record, Pack* tiles) {
+  using T = Tile<Dim, Shape>;
+  if (targets) {
+    for (int l = 0; l < lanes; ++l) {
+      for (int n = 0; n < T::stencil; ++n) {
+        const PairTarget t = targets[l * T::stencil + n];
+        Pack& q = tiles[t.layer * T::nodes + t.node];
+        q = fused(splat(s.S[n][l]), flipped(record[l], t.flip), q);
+      }
+    }
+  } else if (s.same_base) {
+    Pack* lowest = tiles + s.base[0];
+    for (int n = 0; n < T::stencil; ++n) {
+      Pack& q = lowest[T::steps[n]];
+      Pack sum = q;
+      for (int l = 0; l < lanes; ++l) sum = fused(splat(s.S[n][l]), record[l], sum);
+      q = sum;
+    }
+  } else {
+    for (int l = 0; l < lanes; ++l) {
+      Pack* lowest = tiles + s.base[l];
+      for (int n = 0; n < T::stencil; ++n) lowest[T::steps[n]] = fused(splat(s.S[n][l]), record[l], lowest[T::steps[n]]);
+    }
+  }
+}
+
+/// f(node value, S_ip or G_ip index n) over the stencil of lane l, in the order of n.
+template <int Dim, class Shape, class Value, class F>
+inline void for_stencil(const Stencil<Dim, Shape>& s, const PairTarget* targets, int l, const Value* tiles, F&& f) {
+  using T = Tile<Dim, Shape>;
+  if (targets) {
+    for (int n = 0; n < T::stencil; ++n) {
+      const PairTarget t = targets[l * T::stencil + n];
+      f(tiles[t.layer * T::nodes + t.node], n, t.flip);
+    }
+  } else {
+    const Value* lowest = tiles + s.base[l];
+    for (int n = 0; n < T::stencil; ++n) f(lowest[T::steps[n]], n, 0u);
+  }
+}
+
+/// Velocity gradient of four particles, L[d * Dim + k] = sum_i v_i,d G_ip,k (N03 Eq. 36).
+template <int Dim, class Shape>
+inline void gradient(const Stencil<Dim, Shape>& s, const PairTarget* targets, const NodalVector<Dim>* velocity, Pack* L) {
+  auto* out = reinterpret_cast<double*>(L);
+  for (int l = 0; l < lanes; ++l) {
+    NodalVector<Dim> column[Dim];
+    for (int k = 0; k < Dim; ++k) column[k] = splat_as<NodalVector<Dim>>(0.);
+    for_stencil<Dim, Shape>(s, targets, l, velocity, [&](NodalVector<Dim> v_i, int n, unsigned flip) {
+      const NodalVector<Dim> v = flipped(v_i, flip);
+      for (int k = 0; k < Dim; ++k) column[k] = fused(splat_as<NodalVector<Dim>>(s.G[n][k][l]), v, column[k]);
+    });
+    for (int d = 0; d < Dim; ++d) {
+      for (int k = 0; k < Dim; ++k) out[(d * Dim + k) * lanes + l] = column[k][d];
+    }
+  }
+}
+
+/// Adds -V0 tau . G_ip to every node (N03 Eq. 28; f = -m (sigma/rho0) . G for its material).
+template <int Dim, class Shape>
+inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* targets, Pack volume, const Pack* stress, NodalVector<Dim>* tiles) {
+  using T = Tile<Dim, Shape>;
+  // minus_tau[k][l]: column k of -V0 tau of lane l.
+  Pack minus_tau[Dim][lanes];
+  if constexpr (Dim == 2) {
+    Pack xx = -(volume * stress[0]), xy = -(volume * stress[2]), yy = -(volume * stress[1]), again = xy;
+    transpose(xx, xy, again, yy);
+    const Pack row[lanes] = {xx, xy, again, yy};  // {xx, xy, xy, yy} of lane l
+    for (int l = 0; l < lanes; ++l) minus_tau[0][l] = row[l], minus_tau[1][l] = __builtin_shuffle(row[l], Index4{2, 3, 0, 1});
+  } else {
+    static constexpr int column[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int k = 0; k < 3; ++k) {
+      Pack a = -(volume * stress[column[k][0]]), b = -(volume * stress[column[k][1]]), c = -(volume * stress[column[k][2]]), d = splat(0.);
+      transpose(a, b, c, d);
+      minus_tau[k][0] = a, minus_tau[k][1] = b, minus_tau[k][2] = c, minus_tau[k][3] = d;
+    }
+  }
+  for (int l = 0; l < lanes; ++l) {
+    NodalVector<Dim> t_k[Dim];
+    for (int k = 0; k < Dim; ++k) t_k[k] = leading<Dim>(minus_tau[k][l]);
+    for (int n = 0; n < T::stencil; ++n) {
+      if (targets) {
+        const PairTarget t = targets[l * T::stencil + n];
+        NodalVector<Dim> f = t_k[0] * splat_as<NodalVector<Dim>>(s.G[n][0][l]);
+        for (int k = 1; k < Dim; ++k) f = fused(t_k[k], splat_as<NodalVector<Dim>>(s.G[n][k][l]), f);
+        NodalVector<Dim>& q = tiles[t.layer * T::nodes + t.node];
+        q += flipped(f, t.flip);
+      } else {
+        NodalVector<Dim>& q = tiles[s.base[l] + T::steps[n]];
+        NodalVector<Dim> f = q;
+        for (int k = 0; k < Dim; ++k) f = fused(t_k[k], splat_as<NodalVector<Dim>>(s.G[n][k][l]), f);
+        q = f;
+      }
+    }
+  }
+}
+
+}  // namespace crampon

@@ -1,0 +1,116 @@
+#include "crampon/step/project.hpp"
+
+#include "crampon/step/instantiate.hpp"
+#include "crampon/step/stress_pass.hpp"
+#include "crampon/step/tile_buffer.hpp"
+
+namespace crampon {
+
+template <int Dim, class Shape>
+void project_momentum(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  if (!state.blocks.list[b].has_particles()) return;
+  Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
+  const Particles<Dim>& particles = state.particles;
+  for_packs<Dim, Shape>(state, model, b,
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
+                          const Pack m_p = particles.mass_volume[2 * std::size_t{pack}];
+                          Pack record[lanes];
+                          for (int l = 0; l < lanes; ++l) record[l] = particles.momentum_record(std::size_t{pack} * lanes + l, m_p[l]);
+                          scatter<Dim, Shape>(stencil, targets, record, tiles);
+                        });
+}
+
+template <int Dim, class Shape>
+void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  using T = Tile<Dim, Shape>;
+  if (!state.blocks.list[b].has_particles() || !state.nodes.layers[b].sums_contact) return;
+  ContactSums* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_contact);
+  const Particles<Dim>& particles = state.particles;
+  const auto first_node = state.blocks.list[b].first_node();
+  const bool volumes = model.contact.detection == ContactDetection::volume;
+  for_packs<Dim, Shape>(
+      state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+        const Material<Dim>& material = model.materials[run.material];
+        Pack volume = splat(0.);
+        if (volumes) {
+          const PackReport report = material.law->report(model.stress_state, Dim, &particles.stress[std::size_t{pack} * stress_size<Dim>],
+                                                         particles.history.data() + std::size_t{pack} * particles.history_size);
+          volume = particles.mass_volume[2 * std::size_t{pack} + 1] * report.volume_ratio / material.thickness;
+        }
+        for (int l = 0; l < lanes; ++l) {
+          const std::size_t p = std::size_t{pack} * lanes + l;
+          const double m_p = particles.mass(p);
+          if (m_p == 0) continue;
+          const Vec<Dim> x_p = particles.position(p), X_p = particles.original[p];
+          const auto lowest = unflatten<Dim>(stencil.base[l], T::side);
+          for (int n = 0; n < T::stencil; ++n) {
+            const PairTarget t = targets ? targets[l * T::stencil + n]
+                                         : PairTarget{static_cast<std::uint16_t>(stencil.base[l] + T::steps[n]), 0, 0};
+            const auto step = unflatten<Dim>(n, Shape::width);
+            ContactSums record{{splat(0.), splat(0.)}};
+            record.r[0][0] = volume[l];
+            for (int k = 0; k < Dim; ++k) {
+              const double x_i = model.grid.node_coordinate(k, lowest[k] + step[k] + first_node[k] - T::offset);
+              const double sign = t.flip >> k & 1u ? -m_p : m_p;
+              record.r[0][1 + k] = sign * (x_p[k] - x_i);
+              record.r[1][k] = sign * (X_p[k] - x_i);
+            }
+            ContactSums& q = tiles[t.layer * T::nodes + t.node];
+            for (int r = 0; r < 2; ++r) q.r[r] = fused(splat(stencil.S[n][l]), record.r[r], q.r[r]);
+          }
+        }
+      });
+}
+
+namespace {
+
+/// f_p S_ip of particles under load (N03 Eq. 28, f_ext).
+template <int Dim, class Shape>
+void project_loads(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<Vec<Dim>>& load_values,
+                   NodalVector<Dim>* tiles) {
+  using T = Tile<Dim, Shape>;
+  for_loaded<Dim, Shape>(state, model, b, [&](const LoadedParticle<Dim>& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets) {
+    const Vec<Dim>& share = model.loads[loaded.load].share[loaded.entry];
+    NodalVector<Dim> f_p = splat_as<NodalVector<Dim>>(0.);
+    for (int k = 0; k < Dim; ++k) f_p[k] = share[k] * load_values[loaded.load][k];
+    for (int n = 0; n < T::stencil; ++n) {
+      const int node = targets ? targets[l * T::stencil + n].layer * T::nodes + targets[l * T::stencil + n].node
+                               : stencil.base[l] + T::steps[n];
+      const unsigned flip = targets ? targets[l * T::stencil + n].flip : 0u;
+      tiles[node] = fused(splat_as<NodalVector<Dim>>(stencil.S[n][l]), flipped(f_p, flip), tiles[node]);
+    }
+  });
+}
+
+}  // namespace
+
+template <int Dim, class Shape>
+void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, double stress_dt,
+                                      const std::vector<Vec<Dim>>& load_values) {
+  if (!state.blocks.list[b].has_particles()) return;
+  NodalVector<Dim>* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_force);
+  const Particles<Dim>& particles = state.particles;
+  const auto project = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
+    scatter_force<Dim, Shape>(stencil, targets, particles.mass_volume[2 * std::size_t{pack} + 1],
+                              &particles.stress[std::size_t{pack} * stress_size<Dim>], tiles);
+  };
+  if (stress_dt > 0) {
+    update_stress<Dim, Shape>(state, model, b, stress_dt, gathered<Dim, Shape>(state, b, state.nodes.velocity), project);
+  } else {
+    for_packs<Dim, Shape>(state, model, b,
+                          [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
+                            project(pack, stencil, targets);
+                          });
+  }
+  if (!state.scratch[b].loaded.empty()) project_loads<Dim, Shape>(state, model, b, load_values, tiles);
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                  \
+  template void project_momentum<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);               \
+  template void project_contact_sums<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);           \
+  template void update_stress_and_project_forces<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, \
+                                                             const std::vector<Vec<DIM>>&);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

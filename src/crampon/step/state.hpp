@@ -1,0 +1,108 @@
+#pragma once
+/// What changes during a run.
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "crampon/contact/memory.hpp"
+#include "crampon/contact/node_solve.hpp"
+#include "crampon/state/blocks.hpp"
+#include "crampon/state/cracks.hpp"
+#include "crampon/state/nodes.hpp"
+#include "crampon/state/particles.hpp"
+
+namespace crampon {
+
+/// A prescribed component of a node. Rebuilt when blocks change.
+struct FixedComponent {
+  std::uint16_t node = 0;       ///< local node of the block
+  std::uint8_t axis = 0;
+  std::uint16_t condition = 0;
+  std::uint16_t component = 0;  ///< of the condition
+  bool active = false;          ///< the condition holds in this step
+  bool fresh = false;           ///< ... and did not in the step before
+  double v_old = 0, v_new = 0;  ///< m/s, at the start and the end of the step
+};
+
+/// A particle that a load acts on. Rebuilt when blocks change.
+template <int Dim>
+struct LoadedParticle {
+  std::uint32_t slot = 0;
+  std::uint32_t load = 0, entry = 0;
+};
+
+/// Sums of one block over one step; added up in block order, so that they do not depend on threads.
+template <int Dim>
+struct BlockLedger {
+  double load_work = 0, body_work = 0, damping = 0, contact_loss = 0, boundary_work = 0;  ///< J
+  struct Reaction {
+    std::uint16_t condition;
+    Vec<Dim> force;
+  };
+  std::vector<Reaction> reactions;  ///< N
+  int unsolved_nodes = 0;           ///< contact at a node did not converge
+  int crowded_nodes = 0;            ///< nodes with more than two cracks
+  void clear() {
+    load_work = body_work = damping = contact_loss = boundary_work = 0;
+    reactions.clear();
+    unsolved_nodes = crowded_nodes = 0;
+  }
+};
+
+/// What went wrong in a block during particle work.
+struct BlockHealth {
+  bool left_margin = false;   ///< a particle left the block's margin: re-order before the next step
+  bool bad_number = false;
+  bool inverted = false;
+  bool moved_too_far = false; ///< more than a cell in a step
+  bool left_grid = false;
+  bool trouble() const { return bad_number || inverted || moved_too_far || left_grid; }
+};
+
+/// Energy totals since the start, J.
+struct EnergyTotals {
+  double load_work = 0, body_work = 0, boundary_work = 0, damping = 0, contact_loss = 0;
+};
+
+/// Per block, per step: what belongs to nodes with conditions or contact.
+template <int Dim>
+struct BlockScratch {
+  std::vector<FixedComponent> fixed;
+  std::vector<double> p_int;  ///< [layer][fixed]: momentum before the boundary condition (N13 sec. 2.3)
+  std::vector<LoadedParticle<Dim>> loaded;
+  ContactNodes<Dim> contact;
+  BlockLedger<Dim> ledger;
+  BlockHealth health;
+};
+
+struct Phase {
+  std::string name;
+  double seconds = 0;
+};
+
+template <int Dim>
+struct State {
+  double time = 0;
+  std::int64_t step = 0;
+  Particles<Dim> particles;
+  Cracks<Dim> cracks;
+  Blocks<Dim> blocks;
+  Nodes<Dim> nodes;
+  std::vector<BlockScratch<Dim>> scratch;  ///< per block
+  ContactMemory memory;
+  std::vector<bool> condition_was_active;
+  std::vector<double> initial_volume;      ///< per node number: volume of the uncut body at the start, m2 or m3 (CONVENTIONS 10)
+  bool must_reorder = true;
+  std::size_t particle_count = 0;
+  std::int64_t removed = 0;                ///< particles removed on leaving the grid
+
+  EnergyTotals energy;
+  std::vector<Vec<Dim>> reactions;         ///< per condition, last step, N
+  std::int64_t most_unsolved_nodes = 0, most_crowded_nodes = 0;
+  std::vector<Phase> phases;
+};
+
+}  // namespace crampon

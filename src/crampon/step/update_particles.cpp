@@ -1,0 +1,131 @@
+#include "crampon/step/update_particles.hpp"
+
+#include "crampon/step/instantiate.hpp"
+#include "crampon/step/reorder.hpp"
+#include "crampon/step/stress_pass.hpp"
+#include "crampon/step/tile_buffer.hpp"
+
+namespace crampon {
+
+namespace {
+
+/// {v', a} at a particle: sum S_ip {v'_i, a_i}.
+template <int Dim, class Shape>
+MotionRecord<Dim> interpolate(const Stencil<Dim, Shape>& s, const PairTarget* targets, int l, const MotionRecord<Dim>* motion) {
+  MotionRecord<Dim> sum;
+  for (Pack& r : sum.r) r = splat(0.);
+  for_stencil<Dim, Shape>(s, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {
+    const Pack S = splat(s.S[n][l]);
+    if constexpr (Dim == 2) {
+      sum.r[0] = fused(S, flipped(m.r[0], flip | flip << 2), sum.r[0]);
+    } else {
+      sum.r[0] = fused(S, flipped(m.r[0], flip), sum.r[0]);
+      sum.r[1] = fused(S, flipped(m.r[1], flip), sum.r[1]);
+    }
+  });
+  return sum;
+}
+
+/// Which parts of {x, v} advance with {v', a}.
+template <int Dim>
+struct Advance {
+  Pack factor[motion_packs<Dim>];
+  Advance(double dt_position, double dt_velocity) {
+    if constexpr (Dim == 2) {
+      factor[0] = Pack{dt_position, dt_position, dt_velocity, dt_velocity};
+    } else {
+      factor[0] = splat(dt_position);
+      factor[1] = splat(dt_velocity);
+    }
+  }
+  void apply(Particles<Dim>& particles, std::size_t p, const MotionRecord<Dim>& m) const {
+    for (int r = 0; r < motion_packs<Dim>; ++r) {
+      Pack& q = particles.motion[p * motion_packs<Dim> + r];
+      q = fused(factor[r], m.r[r], q);
+    }
+  }
+};
+
+}  // namespace
+
+template <int Dim, class Shape>
+void update_velocities_and_project(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  if (!state.blocks.list[b].has_particles()) return;
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
+  Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
+  Particles<Dim>& particles = state.particles;
+  const Advance<Dim> advance(0., dt);
+  for_packs<Dim, Shape>(state, model, b,
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
+                          const Pack m_p = particles.mass_volume[2 * std::size_t{pack}];
+                          Pack record[lanes];
+                          for (int l = 0; l < lanes; ++l) {
+                            const std::size_t p = std::size_t{pack} * lanes + l;
+                            advance.apply(particles, p, interpolate<Dim, Shape>(stencil, targets, l, motion));
+                            record[l] = particles.momentum_record(p, m_p[l]);
+                          }
+                          scatter<Dim, Shape>(stencil, targets, record, tiles);
+                        });
+}
+
+template <int Dim, class Shape>
+void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, double stress_dt, bool with_velocities) {
+  if (!state.blocks.list[b].has_particles()) return;
+  Particles<Dim>& particles = state.particles;
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
+  const Advance<Dim> advance(dt, with_velocities ? dt : 0.);
+  constexpr int position_pack = 0, width = motion_packs<Dim>;
+  Pack low = splat(1e300), high = splat(-1e300), fastest = splat(0.), check = splat(0.);
+  const auto move = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
+    for (int l = 0; l < lanes; ++l) {
+      const std::size_t p = std::size_t{pack} * lanes + l;
+      const MotionRecord<Dim> m = interpolate<Dim, Shape>(stencil, targets, l, motion);
+      advance.apply(particles, p, m);
+      const Pack x = particles.motion[p * width + position_pack];
+      low = lane_min(low, x);
+      high = lane_max(high, x);
+      fastest = lane_max(fastest, lane_max(m.r[0], -m.r[0]));
+      for (int r = 0; r < width; ++r) check += particles.motion[p * width + r] * 0.;  // NaN and infinity stay
+    }
+  };
+  if (stress_dt > 0) {
+    update_stress<Dim, Shape>(state, model, b, stress_dt, gathered<Dim, Shape>(state, b, state.nodes.velocity), move);
+  } else {
+    for_packs<Dim, Shape>(state, model, b,
+                          [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
+                            move(pack, stencil, targets);
+                          });
+  }
+  BlockHealth& health = state.scratch[b].health;
+  for (int l = 0; l < lanes; ++l) {
+    if (check[l] != 0) health.bad_number = true;
+  }
+  if (health.bad_number) return;
+  for (int k = 0; k < Dim; ++k) {
+    if (fastest[k] * dt > model.grid.cell[k]) health.moved_too_far = true;
+  }
+  find_touched_box<Dim, Shape>(state, model, b, low, high);
+}
+
+template <int Dim, class Shape>
+void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const std::vector<Vec<Dim>>& load_values) {
+  if (state.scratch[b].loaded.empty()) return;
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
+  for_loaded<Dim, Shape>(state, model, b, [&](const LoadedParticle<Dim>& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets) {
+    const MotionRecord<Dim> m = interpolate<Dim, Shape>(stencil, targets, l, motion);
+    for (int k = 0; k < Dim; ++k) {
+      const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
+      state.scratch[b].ledger.load_work +=
+          model.loads[loaded.load].share[loaded.entry][k] * load_values[loaded.load][k] * (v - 0.5 * a * dt) * dt;
+    }
+  });
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                     \
+  template void update_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);             \
+  template void finish_particles<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, bool);            \
+  template void account_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const std::vector<Vec<DIM>>&);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Builds the library, the program and the tests, and runs the tests.
+#   ./test.sh              all tests but those at full resolution
+#   ./test.sh --full       everything
+#   ./test.sh -R NAME ...  other arguments go to ctest
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+select=(-LE full)
+if [ "${1:-}" = --full ]; then
+  select=()
+  shift
+fi
+cmake/install_packages.sh build test
+cmake/build.sh release -DCRAMPON_TESTS=ON all
+# Two at a time: the longer tests use two threads of their own.
+exec ctest --test-dir build/release --output-on-failure --parallel 2 "${select[@]}" "$@"

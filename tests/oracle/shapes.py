@@ -1,0 +1,67 @@
+"""Shape functions of kinematics.md 1.1, one direction at a time; the plane is the tensor product.
+
+Each function returns [(node index, S, dS/dx)] for a point at x on the grid x0 + i h, zero values left out.
+"""
+import math
+
+
+def linear(x, x0, h, half_size):
+    """N = 1 - |xi| on the two nodes of the cell floor((x - x0)/h).
+
+    A point exactly on a grid line is taken as just inside one cell (CONVENTIONS 38), so that no force meets a zero mass.
+    """
+    cell = math.floor((x - x0) / h)
+    fraction = min(max((x - x0) / h - cell, 1e-12), 1 - 1e-12)
+    return [(cell, 1 - fraction, -1 / h), (cell + 1, fraction, 1 / h)]
+
+
+def gimp(x, x0, h, half_size):
+    """uGIMP with the undeformed half size l = 1/(2 particles per cell), in cells."""
+    l = half_size
+    result = []
+    centre = math.floor((x - x0) / h)
+    for i in range(centre - 1, centre + 3):
+        xi = (x - x0) / h - i
+        a = abs(xi)
+        sign = 1.0 if xi > 0 else -1.0
+        if a < l:
+            s, g = 1 - (xi * xi + l * l) / (2 * l), -xi / (l * h)
+        elif a < 1 - l:
+            s, g = 1 - a, -sign / h
+        elif a < 1 + l:
+            s, g = (1 + l - a) ** 2 / (4 * l), -sign * (1 + l - a) / (2 * l * h)
+        else:
+            continue
+        if s > 0:
+            result.append((i, s, g))
+    return result
+
+
+def bspline(x, x0, h, half_size):
+    """Quadratic B-spline."""
+    result = []
+    centre = math.floor((x - x0) / h)
+    for i in range(centre - 1, centre + 3):
+        xi = (x - x0) / h - i
+        a = abs(xi)
+        sign = 1.0 if xi > 0 else -1.0
+        if a < 0.5:
+            s, g = 0.75 - xi * xi, -2 * xi / h
+        elif a < 1.5:
+            s, g = 0.5 * (1.5 - a) ** 2, -sign * (1.5 - a) / h
+        else:
+            continue
+        if s > 0:
+            result.append((i, s, g))
+    return result
+
+
+SHAPES = {"linear": linear, "gimp": gimp, "bspline": bspline}
+
+
+def shape_2d(kind, x, y, grid, half_size):
+    """[((i, j), S, (Gx, Gy))] for a point (N03 Eq. 24)."""
+    one = SHAPES[kind]
+    along_x = one(x, grid.x0, grid.h, half_size)
+    along_y = one(y, grid.y0, grid.h, half_size)
+    return [((i, j), sx * sy, (gx * sy, sx * gy)) for j, sy, gy in along_y for i, sx, gx in along_x]
