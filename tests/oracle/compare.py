@@ -108,7 +108,8 @@ def main():
             try:
                 rows = compare(case, os.path.abspath(arguments.program), arguments.folder or temporary)
                 good = all(first is None for _, _, first in rows)
-                text = "  ".join("%s %.1e%s" % (name, worst, "" if first is None else " (from step %d)" % first) for name, worst, first in rows)
+                text = "  ".join("%s %.1e" % (name, worst) + ("" if first is None else " (from step %d)" % first)
+                                 for name, worst, first in rows)
             except Exception as problem:
                 good, text = False, "%s: %s" % (type(problem).__name__, problem)
                 if not isinstance(problem, RuntimeError):

@@ -11,6 +11,7 @@ from crossing import crosses_crack, segment_normal
 from parts import Crack, Grid, Particle, Symmetry, function
 from shapes import shape_2d
 
+
 class Model:
     def __init__(self, case):
         self.case = case

@@ -45,7 +45,8 @@ def solve(h):
     elements = np.array([[node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)] for j in range(ny) for i in range(nx)])
     dofs = np.stack([2 * elements, 2 * elements + 1], axis=2).reshape(len(elements), 8)
     size = 2 * (nx + 1) * (ny + 1)
-    K = coo_matrix((np.tile(K_e.ravel(), len(dofs)), (np.repeat(dofs, 8, axis=1).ravel(), np.tile(dofs, (1, 8)).ravel())), (size, size)).tocsr()
+    rows, columns = np.repeat(dofs, 8, axis=1).ravel(), np.tile(dofs, (1, 8)).ravel()
+    K = coo_matrix((np.tile(K_e.ravel(), len(dofs)), (rows, columns)), (size, size)).tocsr()
     f = np.zeros(size)
     for j in range(ny):  # first particle column: xi = -1/2 of the first element of each row, two particles each
         for eta in (-0.5, 0.5):

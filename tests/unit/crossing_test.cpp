@@ -71,7 +71,7 @@ bool meet_inside(const ExactPoint& p, const ExactPoint& n, const ExactPoint& a, 
 
 struct Answer {
   int above = 0, below = 0;
-  std::vector<int> crossed;  ///< per segment; segments that meet at the particle's own position are counted at the first
+  std::vector<int> crossed;         ///< per segment; segments that meet at the particle's own position are counted at the first
   bool corner_on_tip_line = false;  ///< particle on an inner vertex, node in line with a tip: the tie rule has no unique reading
   bool crosses() const { return (above + below) % 2 != 0; }
 };
@@ -93,8 +93,8 @@ Answer ask_oracle(const Polyline& crack, const Vec<2>& particle, const Vec<2>& n
       // The corner's two segments together, the particle moved into the corner above; told once, for the segment that ends here.
       const std::size_t before = at_end ? s : (s == 0 ? count - 1 : s - 1), after = at_end ? (s + 1 == count ? 0 : s + 1) : s;
       const bool before_tip = before == 0 && !crack.closed, after_tip = after + 1 == count && !crack.closed;
-      answer.corner_on_tip_line |= (before_tip && cross(n_plain - p, v[before] - p) == 0) ||
-                                   (after_tip && cross(n_plain - p, v[after + 1] - p) == 0);
+      answer.corner_on_tip_line |=
+          (before_tip && cross(n_plain - p, v[before] - p) == 0) || (after_tip && cross(n_plain - p, v[after + 1] - p) == 0);
       if (at_end) {
         const ExactPoint to = v[after + 1] - p, back = v[before] - p;
         const int turn = sign(cross(p - v[before], to));
@@ -159,8 +159,8 @@ Polyline mirrored(const Polyline& c) {
 Polyline reversed(const Polyline& c) { return Polyline(Points(c.vertices.rbegin(), c.vertices.rend()), c.closed); }
 
 bool on_segment(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b) {
-  return orient_sign(a, b, p) == 0 && p[0] >= std::min(a[0], b[0]) && p[0] <= std::max(a[0], b[0]) &&
-         p[1] >= std::min(a[1], b[1]) && p[1] <= std::max(a[1], b[1]);
+  return orient_sign(a, b, p) == 0 && p[0] >= std::min(a[0], b[0]) && p[0] <= std::max(a[0], b[0]) && p[1] >= std::min(a[1], b[1]) &&
+         p[1] <= std::max(a[1], b[1]);
 }
 bool on_crack(const Polyline& c, const Vec<2>& p) {
   for (std::size_t s = 0; s + 1 < c.vertices.size(); ++s) {
@@ -187,8 +187,8 @@ TEST(Crossing, AgreesWithExactRationals) {
     bool closed;
     int cases, lattice;
   };
-  const Group groups[] = {{Kind::random, false, 25000, 0},      {Kind::random, true, 10000, 0},      {Kind::lattice, false, 40000, 3},
-                          {Kind::lattice, true, 20000, 3},      {Kind::lattice, false, 20000, 6},    {Kind::near_lattice, false, 20000, 3},
+  const Group groups[] = {{Kind::random, false, 25000, 0},     {Kind::random, true, 10000, 0},   {Kind::lattice, false, 40000, 3},
+                          {Kind::lattice, true, 20000, 3},     {Kind::lattice, false, 20000, 6}, {Kind::near_lattice, false, 20000, 3},
                           {Kind::near_lattice, true, 10000, 3}};
   int compared = 0, skipped = 0, crossed = 0, multiple = 0, node_on_crack = 0, particle_on_crack = 0, particle_on_vertex = 0;
   Rng rng(3);
@@ -275,12 +275,17 @@ TEST(Crossing, StencilGivesWhatPairsGive) {
     Points nodes;
     for (int i = 0; i < 9; ++i) nodes.push_back(point(rng, Kind::lattice));
     std::vector<Crossing> got(nodes.size());
-    cross_stencil(crack.path(), facets, p, nodes, got);
+    CrackPath path = crack.path();
+    const std::vector<Vec<2>> original(facets.size(), Vec<2>{0, -1});  // a crack that was straight at the start
+    path.original_normals = original;
+    cross_stencil(path, facets, p, nodes, got);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Crossing one = cross_path(crack.path(), facets, p, nodes[i]);
+      const Crossing one = cross_path(path, facets, p, nodes[i]);
       ASSERT_EQ(got[i].above, one.above);
       ASSERT_EQ(got[i].below, one.below);
       ASSERT_EQ(got[i].normal_sum, one.normal_sum);
+      ASSERT_EQ(got[i].original_sum, one.original_sum);
+      ASSERT_EQ(one.original_sum[1], -(one.above + one.below));
       crossed += one.crosses();
     }
   }

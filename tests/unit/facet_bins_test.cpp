@@ -43,8 +43,10 @@ TEST(FacetBins, ListExactlyTheSegmentsACellCanSee) {
       Points v;
       for (int s = pick(rng, 2, 9); s > 0; --s) {
         const bool far = k % 10 == 0;  // reaching out of the padding
-        if (k % 2) v.push_back(at(pick(rng, -2, 14), pick(rng, -2, 14)));
-        else v.push_back(at(draw(rng, far ? -60 : -3, far ? 60 : 15), draw(rng, far ? -60 : -3, far ? 60 : 15)));
+        if (k % 2)
+          v.push_back(at(pick(rng, -2, 14), pick(rng, -2, 14)));
+        else
+          v.push_back(at(draw(rng, far ? -60 : -3, far ? 60 : 15), draw(rng, far ? -60 : -3, far ? 60 : 15)));
       }
       cracks.emplace_back(v);
     }

@@ -1,7 +1,7 @@
 // What a run writes can be read back, bit for bit; damage and full disks are told; pictures show what they should, pixel by pixel.
 
-#include <png.h>
 #include <fcntl.h>
+#include <png.h>
 #include <sched.h>
 #include <signal.h>
 #include <sys/mount.h>
@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -26,7 +27,12 @@
 #include "crampon/output/plot.hpp"
 #include "crampon/output/results_folder.hpp"
 #include "crampon/output/run_record.hpp"
-#include "crampon/output/suggest.hpp"
+
+#if defined(__SANITIZE_ADDRESS__)
+// Fontconfig keeps its tables to the end of the process.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
+#endif
 
 namespace crampon {
 namespace {
@@ -222,8 +228,10 @@ TEST_F(Output, HistoryRowsAreOnDiskAtOnceAndKeepEveryBit) {
     const History read = read_history(path);  // the writer is still open
     ASSERT_EQ(read.rows(), k + 1);
     for (std::size_t c = 0; c < 3; ++c) {
-      if (std::isnan(rows[k][c])) EXPECT_TRUE(std::isnan(read.values[c][k]));
-      else expect_same_bits({rows[k][c]}, {read.values[c][k]}, columns[c].name);
+      if (std::isnan(rows[k][c]))
+        EXPECT_TRUE(std::isnan(read.values[c][k]));
+      else
+        expect_same_bits({rows[k][c]}, {read.values[c][k]}, columns[c].name);
     }
   }
   EXPECT_TRUE(contains(read_file(path), "time[s],kinetic_energy[J],opening_max.crack1[m]\n"));
@@ -267,8 +275,8 @@ TEST(HistoryLookup, InterpolationAndStatisticsByHand) {
   EXPECT_THROW(h.value_at("energy", -0.1), std::out_of_range);
   EXPECT_THROW(h.statistics("energy", 3, 2), std::invalid_argument);
   EXPECT_EQ(h.unit("energy"), "J");
-  EXPECT_TRUE(contains(message_of([&] { h.column("enegry"); }), "no column \"enegry\"; did you mean \"energy\"?"));
-  EXPECT_TRUE(contains(message_of([&] { h.column("temperature"); }), "there are: time, energy"));
+  EXPECT_TRUE(contains(message_of([&] { h.column("enegry"); }), "no column \"enegry\"; did you mean \"energy\""));
+  EXPECT_TRUE(contains(message_of([&] { h.column("temperature"); }), "choose from: time, energy"));
   h.values[1][1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(h.statistics("energy", 0.5, 3).maximum));
 }
@@ -331,6 +339,7 @@ TEST_F(Output, ResultsFolderRefusesAndForceRemovesOnlyItsOwn) {
   }
   first.write_grid(random_frame(1));
   first.write_resolved_input("title = \"x\"\n");
+  write_file(first.original_input(), "title = \"x\"\n");
   HistoryWriter(first.history(), {{"time", "s"}});
   write_run_record(first.run_record(), describe_program());
   ASSERT_EQ(first.particle_frames().size(), 3u);
@@ -419,7 +428,7 @@ TEST_F(Output, FailedWriteNamesFileAndReasonAndLeavesTheOldOne) {
   EXPECT_EQ(history_error, results.history().string() + ": cannot write: File too large");
   EXPECT_EQ(read_file(results.history()).back(), '\n') << "the row begun is taken back";
   EXPECT_GT(read_history(results.history()).rows(), 5u);  // 700 bytes hold more than five rows of 45
-  history.write_row({5000, 1});  // and once there is room again, rows go on where they stopped
+  history.write_row({5000, 1});                           // and once there is room again, rows go on where they stopped
   EXPECT_EQ(read_history(results.history()).values[0].back(), 5000);
   results.write_particles(big);
   EXPECT_EQ(results.particle_frames().size(), 2u);
@@ -432,9 +441,11 @@ TEST(FullDisk, HistoryOnAFullDeviceSaysSo) {
 // A real file system of 64 kB, mounted for a child process alone. Exit code 77: this machine does not allow that.
 int fill_small_disk(const fs::path& where) {
   const uid_t user = ::getuid();
+  const gid_t group = ::getgid();
   if (::unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return 77;
   std::ofstream("/proc/self/setgroups") << "deny";
   std::ofstream("/proc/self/uid_map") << "0 " << user << " 1";
+  std::ofstream("/proc/self/gid_map") << "0 " << group << " 1";
   if (::mount("none", where.c_str(), "tmpfs", 0, "size=64k") != 0) return 77;
   ResultsFolder results = ResultsFolder::create(where / "r");
   const PointFrame frame = random_frame(60);
@@ -461,18 +472,19 @@ int fill_small_disk(const fs::path& where) {
 TEST_F(Output, FullDiskLeavesAllEarlierFramesReadable) {
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
-  if (child == 0) ::_exit(fill_small_disk(folder));
+  if (child == 0) {
+    try {
+      ::_exit(fill_small_disk(folder));
+    } catch (const std::exception& e) {
+      std::fprintf(stderr, "%s\n", e.what());
+      ::_exit(99);
+    }
+  }
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFEXITED(status));
   if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "no private mounts here; FailedWriteNamesFileAndReason covers the logic";
   EXPECT_EQ(WEXITSTATUS(status), 0);
-}
-
-TEST(Suggest, NearestNameOrAll) {
-  EXPECT_EQ(suggest_name("velocty_x", {"velocity_x", "velocity_y"}), "; did you mean \"velocity_x\"?");
-  EXPECT_EQ(suggest_name("qqqqqqqq", {"a", "b"}), "; there are: a, b");
-  EXPECT_EQ(suggest_name("x", {}), "");
 }
 
 TEST(DisplayScale, PrefixesAndPowers) {
@@ -546,7 +558,7 @@ TEST(Quantities, DerivedValuesByHand) {
   // Half a fringe: k_f times the difference is pi.
   const double half = 1e6 * 3.14159265358979324 / 0.0889;
   EXPECT_NEAR(evaluate_quantity(one_stress({half, 0, 0, 0, 0, 0}), "fringes").values[0], -1, 1e-14);
-  EXPECT_TRUE(contains(message_of([&] { evaluate_quantity(f, "vonmises"); }), "did you mean \"von_mises\"?"));
+  EXPECT_TRUE(contains(message_of([&] { evaluate_quantity(f, "vonmises"); }), "did you mean \"von_mises\""));
   EXPECT_TRUE(contains(message_of([&] { evaluate_quantity(f, "stress"); }), "stress_xx"));
   EXPECT_TRUE(contains(message_of([&] { evaluate_quantity(PointFrame{}, "fringes"); }), "needs the field \"stress\""));
 }
@@ -576,6 +588,18 @@ void expect_colour(const std::array<int, 3>& seen, const Colour& wanted, const s
   EXPECT_NEAR(seen[0], 255 * wanted.red, 1) << what << " red";
   EXPECT_NEAR(seen[1], 255 * wanted.green, 1) << what << " green";
   EXPECT_NEAR(seen[2], 255 * wanted.blue, 1) << what << " blue";
+}
+
+// A line is at least two pixels wide; antialiasing leaves one of its own colour within a pixel of the place.
+void expect_line(const Pixels& pixels, const std::array<double, 2>& at, const Colour& wanted, const std::string& what) {
+  int nearest = 1000;
+  for (const double offset : {-1., 0., 1.}) {
+    const std::array<int, 3> seen = pixels.at(at[0], at[1] + offset);
+    const int distance = static_cast<int>(
+        std::max({std::abs(seen[0] - 255 * wanted.red), std::abs(seen[1] - 255 * wanted.green), std::abs(seen[2] - 255 * wanted.blue)}));
+    nearest = std::min(nearest, distance);
+  }
+  EXPECT_LE(nearest, 8) << what;  // cairo's coverage counts in 1/15 of a pixel or finer; the next curve or the paper is 90 away
 }
 
 constexpr Colour white{1, 1, 1};
@@ -647,14 +671,14 @@ TEST_F(Output, OpenCrackIsWhiteBetweenItsSurfacesAndClosedOneALine) {
     expect_colour(with_gap.at(at[0], at[1]), white, "in the gap");
   }
   const auto surface = map.panels[0].pixel(5.5e-3, 4.5e-3);
-  expect_colour(with_gap.at(surface[0], surface[1]), {0, 0, 0}, "upper surface");
+  expect_line(with_gap, surface, {0, 0, 0}, "upper surface");
   const auto body = map.panels[0].pixel(5.5e-3, 5.5e-3);
   expect_colour(with_gap.at(body[0], body[1]), map.colour(5 + 10 * 5), "above the crack");
 
   map = draw_frame(frame, &closed, {.quantity = "signal"}, folder / "closed.png");
   const Pixels without(folder / "closed.png");
   const auto line = map.panels[0].pixel(5.5e-3, 4e-3);
-  expect_colour(without.at(line[0], line[1]), {0, 0, 0}, "closed crack");
+  expect_line(without, line, {0, 0, 0}, "closed crack");
   const auto near = map.panels[0].pixel(5.5e-3, 4.3e-3);
   expect_colour(without.at(near[0], near[1]), map.colour(5 + 10 * 4), "beside the closed crack");
 
@@ -680,7 +704,8 @@ TEST_F(Output, MagnifiedDisplacementsMoveParticlesAndCracks) {
   EXPECT_THROW(draw_frame(frame, &crack, options, folder / "n.png"), std::invalid_argument);
   PointFrame without = frame;
   without.fields.pop_back();
-  EXPECT_TRUE(contains(message_of([&] { draw_frame(without, nullptr, options, folder / "n.png"); }), "needs the field \"displacement\""));
+  const std::string message = message_of([&] { draw_frame(without, nullptr, options, folder / "n.png"); });
+  EXPECT_TRUE(contains(message, "need the field \"displacement\"")) << message;
   EXPECT_FALSE(fs::exists(folder / "n.png"));
 }
 
@@ -724,7 +749,7 @@ TEST_F(Output, PanelSharesColoursAndWindow) {
   const PointFrame a = block(0);
   PointFrame b = block(0);
   for (double& v : b.fields[1].values) v *= -2;
-  b.positions[0] = std::numeric_limits<double>::quiet_NaN();        // left out
+  b.positions[0] = std::numeric_limits<double>::quiet_NaN();         // left out
   b.fields[1].values[9] = std::numeric_limits<double>::quiet_NaN();  // shown as such
   DrawOptions options{.quantity = "signal", .range = ColourRange::symmetric, .title = "panel", .columns = 2};
   const PictureMap map = draw_panel({{&a, nullptr}, {&b, nullptr}, {&a, nullptr}}, options, folder / "p.png");
@@ -758,9 +783,9 @@ TEST_F(Output, PlotPutsCurvesWhereTheyBelong) {
     const auto at = map.areas[0].pixel(x, y);
     return pixels.at(at[0], at[1]);
   };
-  expect_colour(colour_at(0.3, 5), curve_colours()[0], "flat");
-  expect_colour(colour_at(1.63, 8.15), curve_colours()[1], "rising");
-  expect_colour(colour_at(0.03, 2), curve_colours()[2], "broken");  // within the first dash
+  expect_line(pixels, map.areas[0].pixel(0.3, 5), curve_colours()[0], "flat");
+  expect_line(pixels, map.areas[0].pixel(1.63, 8.15), curve_colours()[1], "rising");
+  expect_line(pixels, map.areas[0].pixel(0.015, 2), curve_colours()[2], "broken");  // in the middle of the first dash
   expect_colour(colour_at(1.07, 2.05), white, "where the curve is interrupted");
   expect_colour(colour_at(1.37, 8.9), white, "beside the curves");
   EXPECT_THROW(plot_profiles({{"bad", {0, 1}, {0}}}, {}, folder / "q.png"), std::invalid_argument);
@@ -777,13 +802,13 @@ TEST_F(Output, HistoryPlotStacksUnitsAndJoinsRuns) {
   EXPECT_LT(stacked.areas[0].y_highest, 7) << "the energies are together";
   EXPECT_EQ(stacked.areas[0].left, stacked.areas[1].left);
   const Pixels pixels(folder / "s.png");
-  const auto momentum = stacked.areas[1].pixel(0.3, 7), strain = stacked.areas[0].pixel(0.03, 2.97);
-  expect_colour(pixels.at(momentum[0], momentum[1]), curve_colours()[1], "momentum");
-  expect_colour(pixels.at(strain[0], strain[1]), curve_colours()[2], "strain energy");
+  const auto momentum = stacked.areas[1].pixel(0.3, 7), strain = stacked.areas[0].pixel(0.015, 2.985);
+  expect_line(pixels, momentum, curve_colours()[1], "momentum");
+  expect_line(pixels, strain, curve_colours()[2], "strain energy");
   const PlotMap joined = plot_history({{&one, "kinetic_energy", "one"}, {&two, "kinetic_energy", "two"}}, {}, folder / "j.png");
   ASSERT_EQ(joined.areas.size(), 1u);
   const auto second = joined.areas[0].pixel(0.3, 4);
-  expect_colour(Pixels(folder / "j.png").at(second[0], second[1]), curve_colours()[1], "second run");
+  expect_line(Pixels(folder / "j.png"), second, curve_colours()[1], "second run");
   EXPECT_THROW(plot_history(one, {"kinetic"}, {}, folder / "k.png"), std::out_of_range);
 }
 

@@ -46,9 +46,7 @@ TEST(OrientSign, IsExactOnNearlyCollinearPoints) {
 
 TEST(OrientSign, IsExactOverWidelyDifferentMagnitudes) {
   Rng rng(2);
-  const auto wide = [&] {
-    return pick(rng, 0, 5) == 0 ? 0. : std::ldexp(draw(rng, -1, 1), pick(rng, -60, 60) * pick(rng, 0, 7));
-  };
+  const auto wide = [&] { return pick(rng, 0, 5) == 0 ? 0. : std::ldexp(draw(rng, -1, 1), pick(rng, -60, 60) * pick(rng, 0, 7)); };
   for (int k = 0; k < 5000; ++k) {
     const Vec<2> a{wide(), wide()}, b{wide(), wide()}, c{wide(), wide()};
     ASSERT_EQ(orient_sign(a, b, c), rational_orient(a, b, c));
@@ -58,9 +56,9 @@ TEST(OrientSign, IsExactOverWidelyDifferentMagnitudes) {
 
 TEST(OrientSign, PerturbationTakesTheFirstDerivativeThatIsNotZero) {
   const Vec<2> o{0, 0}, east{2, 0}, north{0, 2}, diagonal{2, 2};
-  EXPECT_EQ(orient_sign_perturbed(o, east, {1, 0}), 1);        // (eps, eps^2) lies above the x axis
-  EXPECT_EQ(orient_sign_perturbed(o, north, {0, 1}), -1);      // and to the right of the y axis
-  EXPECT_EQ(orient_sign_perturbed(o, diagonal, {1, 1}), -1);   // and below the diagonal
+  EXPECT_EQ(orient_sign_perturbed(o, east, {1, 0}), 1);       // (eps, eps^2) lies above the x axis
+  EXPECT_EQ(orient_sign_perturbed(o, north, {0, 1}), -1);     // and to the right of the y axis
+  EXPECT_EQ(orient_sign_perturbed(o, diagonal, {1, 1}), -1);  // and below the diagonal
   EXPECT_EQ(orient_sign_perturbed(diagonal, o, {1, 1}), 1);
   EXPECT_EQ(orient_sign_perturbed(o, o, {1, 1}), 0);
 }

@@ -30,9 +30,7 @@ TEST(SymmetryFold, PairsFoldWhereTheTwinsCrackIsNotCrossed) {
     plane.at = at;
     plane.side = side;
     const int other = 1 - axis;
-    const auto tip_near = [&](int low, int high) {
-      return pick(rng, low, high) * cell + (tip_on_node ? 0 : draw(rng, -0.5, 0.5) * cell);
-    };
+    const auto tip_near = [&](int low, int high) { return pick(rng, low, high) * cell + (tip_on_node ? 0 : draw(rng, -0.5, 0.5) * cell); };
     // The part may end on the left, on the right, or on both sides; the crack covers the rest of the line.
     const int ends = pick(rng, 1, 3);
     double tip[2] = {0, 0};

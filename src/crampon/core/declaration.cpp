@@ -27,6 +27,9 @@ std::string Length::text() const {
 }
 
 void Diagnostics::add(Location location, std::string what, std::string why, std::string remedy) {
+  // A Diagnostic is one sentence; help texts and libraries end theirs.
+  for (std::string* part : {&what, &why})
+    if (part->ends_with('.')) part->pop_back();
   list_.push_back({std::move(location), std::move(what), std::move(why), std::move(remedy)});
 }
 

@@ -129,7 +129,7 @@ std::string ValueFunction::text() const {
   if (expression_) {
     const double s = expression_->scale;
     return s == 1 ? fmt::format("{{ expression = \"{}\" }}", expression_->text)
-                  : fmt::format("{{ expression = \"{}*({})\" }}", s, expression_->text);
+                  : fmt::format("{{ expression = \"{}\", scale = {} }}", expression_->text, s);
   }
   if (times_.empty()) return fmt::format("{}", values_.front());
   return fmt::format("{{ times = [{}], values = [{}] }}", fmt::join(times_, ", "), fmt::join(values_, ", "));

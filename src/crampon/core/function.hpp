@@ -24,7 +24,7 @@ class ValueFunction {
   double operator()(double t, const Vec<3>& x) const;
   bool depends_on_position() const;
   bool depends_on_time() const;
-  /// As a user would write it.
+  /// As a user would write it, in TOML and SI; reading it gives the same bits.
   std::string text() const;
 
  private:

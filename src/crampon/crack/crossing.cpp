@@ -49,8 +49,13 @@ bool corner_crossed(const CrackPath& crack, std::size_t before, std::size_t afte
 class SegmentTest {
  public:
   SegmentTest(const CrackPath& crack, std::size_t segment, const Vec<2>& particle)
-      : crack_(crack), segment_(segment), particle_(particle), a_(crack.vertices[segment]), b_(crack.vertices[segment + 1]),
-        tips_(crack.tip_rule(segment)), above_(particle_above(a_, b_, particle)) {
+      : crack_(crack),
+        segment_(segment),
+        particle_(particle),
+        a_(crack.vertices[segment]),
+        b_(crack.vertices[segment + 1]),
+        tips_(crack.tip_rule(segment)),
+        above_(particle_above(a_, b_, particle)) {
     const std::size_t count = crack.segment_count();
     if (particle == b_ && !has_end(tips_)) {
       corner_ = Corner::end;
@@ -108,8 +113,8 @@ Crossing cross_path(const CrackPath& crack, const Vec<2>& particle, const Vec<2>
   return crossing;
 }
 
-void cross_stencil(const CrackPath& crack, std::span<const FacetRef> facets, const Vec<2>& particle,
-                   std::span<const Vec<2>> nodes, std::span<Crossing> crossings) {
+void cross_stencil(const CrackPath& crack, std::span<const FacetRef> facets, const Vec<2>& particle, std::span<const Vec<2>> nodes,
+                   std::span<Crossing> crossings) {
   std::fill(crossings.begin(), crossings.end(), Crossing{});
   if (nodes.empty()) return;
   Vec<2> low = particle, high = particle;

@@ -27,9 +27,9 @@ struct FacetRef {
 
 /// One crack as the crossing test sees it: a directed polyline; above is to its left.
 struct CrackPath {
-  std::span<const Vec<2>> vertices;  ///< m; of a closed path the first and last are equal
-  std::span<const Vec<2>> normals;   ///< of segment s from vertex s to s + 1: (dy, -dx)/L, from above to below; may be empty
-  bool closed = false;               ///< no tips
+  std::span<const Vec<2>> vertices;            ///< m; of a closed path the first and last are equal
+  std::span<const Vec<2>> normals;             ///< of segment s from vertex s to s + 1: (dy, -dx)/L, from above to below; may be empty
+  bool closed = false;                         ///< no tips
   std::span<const Vec<2>> original_normals{};  ///< the same at the start of the run; may be empty
 
   std::size_t segment_count() const { return vertices.size() < 2 ? 0 : vertices.size() - 1; }
@@ -63,7 +63,7 @@ Crossing cross_path(const CrackPath& crack, const Vec<2>& particle, const Vec<2>
 
 /// cross_path for every node of a particle's stencil; what depends on the particle alone is done once.
 /// \param nodes, crossings  one entry per node, of equal length; crossings are overwritten
-void cross_stencil(const CrackPath& crack, std::span<const FacetRef> facets, const Vec<2>& particle,
-                   std::span<const Vec<2>> nodes, std::span<Crossing> crossings);
+void cross_stencil(const CrackPath& crack, std::span<const FacetRef> facets, const Vec<2>& particle, std::span<const Vec<2>> nodes,
+                   std::span<Crossing> crossings);
 
 }  // namespace crampon

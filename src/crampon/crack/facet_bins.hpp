@@ -14,9 +14,9 @@ namespace crampon {
 /// The grid as the bins need it. Cell (i, j) covers origin + [i, i + 1] x [j, j + 1] cells; a particle in it has its nodes within
 /// origin + [i - reach_low, i + 1 + reach_high] x (the same in j). Linear shape functions reach 0, 0.
 struct BinGrid {
-  Vec<2> origin;                ///< m
-  Vec<2> cell;                  ///< m
-  std::array<int, 2> cells{};   ///< number of cells per axis
+  Vec<2> origin;               ///< m
+  Vec<2> cell;                 ///< m
+  std::array<int, 2> cells{};  ///< number of cells per axis
   int reach_low = 0, reach_high = 0;
 };
 

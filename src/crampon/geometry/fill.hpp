@@ -31,7 +31,7 @@ enum class FillMeasure {
 /// that round-off cannot make a mirrored shape fill differently. (Two bodies that share an edge which runs through centres both
 /// get them: let shared edges run between centres, as grid lines do.) Order: cells row by row, x fastest, and so within a cell.
 ///
-/// `matched`: the centre rule alone leaves a staircase, whose measure differs from a curved shape's by about 1 % at ten cells across. A
+/// `matched`: the centre rule alone leaves a staircase, whose measure differs from a curved shape's by up to 1 % at ten cells across. A
 /// single factor would put that error into the density of the interior. Here each sub-cell on the boundary first gets the part of
 /// it that the shape covers; where the centre is outside and no particle was placed, that part goes in equal shares to the
 /// particles of the nearest neighbour sub-cells (faces, else edges, else corners). So mass is right where it lies and the one factor
@@ -42,7 +42,8 @@ std::vector<FilledParticle> fill_shape(const Shape& shape, const FillGrid& grid,
                                        FillMeasure measure = FillMeasure::lattice);
 
 /// Measure (m2 or m3) of the part of the shape inside the grid, from the covered parts of the sub-cells on its boundary. Boundaries
-/// are taken as flat within 1/16 (3D: 1/8) of a sub-cell: relative error below 1e-4 for bodies of 20 sub-cells or more across.
+/// are cut by planes in boxes halved until they are flat, down to 1/16 (3D: 1/8) of a sub-cell. Relative error below 1e-4 for bodies
+/// of 20 sub-cells or more across (curved ones: below 1e-5).
 double covered_measure(const Shape& shape, const FillGrid& grid, const std::array<int, 3>& per_cell);
 
 }  // namespace crampon

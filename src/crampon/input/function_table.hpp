@@ -1,5 +1,5 @@
 #pragma once
-/// Functions of time and place as a table: {expression, unit}, {times, values} or {file, unit}.
+/// Functions of time and place as a table: {expression, unit}, {times, values} or {file, unit}; a factor `scale` may stand for the unit.
 
 #include <optional>
 #include <string>

@@ -152,8 +152,9 @@ class TableReader {
 
   const toml::table* expect_table(const toml::node& node, const Entry& entry, const std::string& where) {
     if (const toml::table* table = node.as_table()) return table;
-    const std::string remedy = node.is_array_of_tables() ? fmt::format("write [{}] with single brackets", entry.key)
-                                                         : fmt::format("write {} = {{ ... }} or [{}]", entry.key, entry.key);
+    std::string remedy = fmt::format("write {} = {{ ... }}", entry.key);
+    if (entry.list()) remedy = where_.empty() ? fmt::format("write [[{}]]", entry.key) : fmt::format("write {} = [{{ ... }}, ...]", entry.key);
+    if (!entry.list() && where_.empty()) remedy = fmt::format("write [{}]{}", entry.key, node.is_array_of_tables() ? " with single brackets" : "");
     complain(node.source(), where, fmt::format("{} where a table is expected", describe_type(node)), entry.help, remedy);
     return nullptr;
   }

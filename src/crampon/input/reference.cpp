@@ -46,7 +46,7 @@ class PageWriter {
         "- A **function** is a quantity, or `{ expression = \"2*sin(pi*t)\", unit = \"mm/s\" }` in `t` (s), `x`, `y`, `z` (m) with "
         "`sin`, `cos`, `exp`, `sqrt`, `abs`, `min`, `max`, `if(condition, yes, no)` ..., or a table linear in time and constant outside, "
         "`{ times = [\"0 s\", \"1 ms\"], values = [0, \"3 mm/s\"] }`, or the same from a file with lines `time,value` in SI, "
-        "`{ file = \"pull.csv\", unit = \"mm/s\" }`.\n"
+        "`{ file = \"pull.csv\", unit = \"mm/s\" }`. A factor to SI, `scale = 1e-3`, may stand in place of `unit`.\n"
         "- A **list** of quantities may hold numbers and text side by side: `[\"0 mm\", 0.018]`.\n"
         "- A key that is not listed here is an error.\n";
     section(2, "Top level", root);
@@ -102,7 +102,12 @@ class PageWriter {
     const std::shared_ptr<void> defaults = record.create();
     for (const Entry& entry : record.entries()) {
       std::string help = entry.help;
-      for (const std::string& other : entry.excludes) help += "; not together with " + code(other);
+      for (const Entry& other : record.entries()) {
+        const auto names = [](const Entry& a, const Entry& b) {
+          return std::find(a.excludes.begin(), a.excludes.end(), b.key) != a.excludes.end();
+        };
+        if (names(entry, other) || names(other, entry)) help += "; not together with " + code(other.key);
+      }
       out_ += fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(entry.key), cell(type_text(entry)), cell(unit_text(entry)),
                           cell(default_text(record, entry, defaults.get())), cell(bounds_text(entry)), cell(help));
     }
@@ -125,8 +130,8 @@ class PageWriter {
       }
       case Kind::function: return "function";
       case Kind::functions: return "list of functions";
-      case Kind::record: return link("table", mention(entry, "[" + entry.key + "]"));
-      case Kind::records: return link("array of tables", mention(entry, "[[" + entry.key + "]]"));
+      case Kind::record: return link("table", mention(entry, code("[" + entry.key + "]")));
+      case Kind::records: return link("array of tables", mention(entry, code("[[" + entry.key + "]]")));
       case Kind::one_of: return link(entry.family().name(), mention(entry.family()));
       case Kind::one_of_list: return "list of " + link(entry.family().name(), mention(entry.family()));
       case Kind::inline_one_of: return link(entry.family().name(), mention(entry.family())) + ", with its keys beside it";

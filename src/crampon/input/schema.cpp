@@ -73,6 +73,7 @@ class SchemaWriter {
     Json table = {{"type", "object"}, {"additionalProperties", false}};
     table["properties"] = {{"expression", {{"type", "string"}, {"description", "formula of t, x, y, z and pi in SI"}}},
                            {"unit", {{"type", "string"}, {"description", "unit of the formula or of the file's values"}}},
+                           {"scale", {{"type", "number"}, {"description", "factor to SI, in place of the unit"}}},
                            {"times", array_schema(quantity_schema({}), Length::at_least(1))},
                            {"values", array_schema(quantity_schema({}), Length::at_least(1))},
                            {"file", {{"type", "string"}, {"description", "CSV file with the columns time and value"}}}};

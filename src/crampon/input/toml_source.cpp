@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "crampon/input/resolved.hpp"
+
 namespace crampon {
 namespace {
 
@@ -116,8 +118,13 @@ void apply_override(toml::table& root, const std::string& setting, Diagnostics& 
     if (value_text.find('\n') == std::string::npos) holder = toml::parse("v = " + value_text, origin);
   } catch (const toml::parse_error&) {
   }
-  if (holder.size() != 1) holder = toml::table{{"v", trim(value_text)}};
+  if (holder.size() != 1) holder = toml::parse("v = " + toml_quoted(trim(value_text)), origin);
   toml::node& value = *holder.get("v");
+  // Copies of a node forget where it stood; moved ones remember.
+  const auto insert = [&](toml::table& table, const std::string& key, toml::node& node) -> toml::node& {
+    node.visit([&](auto& concrete) { table.insert_or_assign(toml::key(key, node.source()), std::move(concrete)); });
+    return *table.get(key);
+  };
 
   toml::node* here = &root;
   for (std::size_t k = 0; k < steps->size(); ++k) {
@@ -131,7 +138,8 @@ void apply_override(toml::table& root, const std::string& setting, Diagnostics& 
         return;
       }
       if (last) {
-        array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(*step.index), value);
+        const auto place = array->cbegin() + static_cast<std::ptrdiff_t>(*step.index);
+        value.visit([&](auto& concrete) { array->replace(place, std::move(concrete)); });
         return;
       }
       here = array->get(*step.index);
@@ -142,11 +150,14 @@ void apply_override(toml::table& root, const std::string& setting, Diagnostics& 
         return;
       }
       if (last) {
-        table->insert_or_assign(step.key, value);
+        insert(*table, step.key, value);
         return;
       }
       here = table->get(step.key);
-      if (!here) here = &table->insert_or_assign(step.key, toml::table{}).first->second;
+      if (!here) {
+        toml::table made = toml::parse("v = {}", origin);
+        here = &insert(*table, step.key, *made.get("v"));
+      }
     }
   }
 }

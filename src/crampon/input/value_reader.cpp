@@ -156,7 +156,7 @@ class ValueReader {
   template <class V, class ReadOne>
   std::optional<std::vector<V>> list(const toml::node& node, const std::string& where, Length length, ReadOne read_one) {
     const toml::array* array = node.as_array();
-    if (!array) return wrong_type(node, where, "an array", array_example());
+    if (!array) return wrong_type(node, where, entry_.kind == Kind::quantities && length.contains(1) ? "a quantity or an array" : "an array", array_example());
     if (!length.contains(array->size()))
       return complain(node, where, fmt::format("{} value{} where {} {} expected", array->size(), array->size() == 1 ? "" : "s",
                                                length.text(), length.most == 1 ? "is" : "are"),

@@ -37,9 +37,12 @@ bool takes_prefix(std::string_view unit) {
 std::string pretty(std::string_view unit) {
   std::string out;
   for (const char c : unit) {
-    if (c >= '0' && c <= '9' && !out.empty()) out += superscript(c - '0');
-    else if (c == '*' || c == '.') out += "·";
-    else out += c;
+    if (c >= '0' && c <= '9' && !out.empty())
+      out += superscript(c - '0');
+    else if (c == '*' || c == '.')
+      out += "·";
+    else
+      out += c;
   }
   return out;
 }

@@ -172,7 +172,7 @@ void paint_crack(Canvas& canvas, const Scene::Surfaces& crack, const PictureMap:
   };
   cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(c, CAIRO_LINE_CAP_ROUND);
-  stroke({1, 1, 1}, 0.55, 2.6 * line_width);  // keeps a closed crack visible on dark particles
+  stroke({1, 1, 1}, 0.55, 2.2 * line_width);  // keeps a closed crack visible on dark particles
   stroke({0, 0, 0}, 1, line_width);
   cairo_set_line_cap(c, CAIRO_LINE_CAP_BUTT);
 }
@@ -192,8 +192,7 @@ void paint_axes(Canvas& canvas, const PictureLayout& p, std::size_t index, const
   for (const double t : p.y_ticks.at) {
     const double y = panel.pixel(0, t * p.length.factor)[1];
     canvas.line(plot.left - tick, y, plot.left, y, 1);
-    if (leftmost)
-      canvas.text(plot.left - tick - 0.3 * text, y, tick_label(t, p.y_ticks.step), text, AlignX::right, AlignY::middle);
+    if (leftmost) canvas.text(plot.left - tick - 0.3 * text, y, tick_label(t, p.y_ticks.step), text, AlignX::right, AlignY::middle);
   }
   if (lowest)
     canvas.text(plot.left + plot.width / 2, plot.bottom() + tick + 1.5 * text, label_with_unit("x", p.length.unit), text, AlignX::centre,
@@ -265,13 +264,15 @@ PictureMap draw_panel(const std::vector<Snapshot>& snapshots, const DrawOptions&
     cairo_rectangle(canvas.context(), plot.left, plot.top, plot.width, plot.height);
     cairo_clip(canvas.context());
     paint_particles(canvas, scenes[i], map, panel);
-    for (const Scene::Surfaces& crack : scenes[i].cracks) paint_crack(canvas, crack, panel, std::max(1.2, 0.09 * p.sizes.text));
+    for (const Scene::Surfaces& crack : scenes[i].cracks) paint_crack(canvas, crack, panel, std::max(1.5, 0.12 * p.sizes.text));
     cairo_restore(canvas.context());
     paint_axes(canvas, p, i, panel);
     std::string label = "t = " + quantity_text(scenes[i].time, latest, "s");
     if (options.magnification != 1) label += fmt::format(", displacements × {:g}", options.magnification);
-    if (scenes.size() > 1) label = fmt::format("({})  {}", static_cast<char>('a' + i % 26), label);
-    else if (!options.title.empty()) label = options.title + ",  " + label;
+    if (scenes.size() > 1)
+      label = fmt::format("({})  {}", static_cast<char>('a' + i % 26), label);
+    else if (!options.title.empty())
+      label = options.title + ",  " + label;
     title(canvas, plot.left + plot.width / 2, plot.top - 0.95 * p.sizes.text, scenes.size() > 1 ? plot.width : p.width - 2 * p.sizes.gap,
           label, 1.1 * p.sizes.text);
   }

@@ -18,16 +18,16 @@ enum class ColourRange { fitted, symmetric };
 
 struct DrawOptions {
   std::string quantity = "von_mises";  ///< as evaluate_quantity
-  std::optional<Palette> palette;      ///< default: grey for "fringes", diverging for a symmetric range, else uniform
+  std::optional<Palette> palette{};    ///< default: grey for "fringes", diverging for a symmetric range, else uniform
   ColourRange range = ColourRange::fitted;
-  std::optional<double> lowest, highest;  ///< ends of the colour range, SI; default: over all snapshots ("fringes": -1 to 1)
-  double trimmed = 0;                     ///< fraction of the values at each end that the fitted range leaves out
-  double magnification = 1;               ///< of displacements; other than 1 needs the field "displacement"
+  std::optional<double> lowest{}, highest{};       ///< ends of the colour range, SI; default: over all snapshots ("fringes": -1 to 1)
+  double trimmed = 0;                              ///< fraction of the values at each end that the fitted range leaves out
+  double magnification = 1;                        ///< of displacements; other than 1 needs the field "displacement"
   double fringe_constant = paper_fringe_constant;  ///< k_f of N03 Eq. 23, 1/MPa
-  std::optional<std::array<double, 4>> window;     ///< x lowest, x highest, y lowest, y highest, m; default: the bodies
-  std::string title;
-  int columns = 0;      ///< of a panel of several snapshots; 0: the picture's shape decides
-  int width = 1200;     ///< px; narrower for tall bodies
+  std::optional<std::array<double, 4>> window{};   ///< x lowest, x highest, y lowest, y highest, m; default: the bodies
+  std::string title{};
+  int columns = 0;        ///< of a panel of several snapshots; 0: the picture's shape decides
+  int width = 1200;       ///< px; narrower for tall bodies
   int max_height = 1400;  ///< px of all plot areas above each other
 };
 
@@ -46,7 +46,7 @@ struct PictureMap {
     std::array<double, 2> pixel(double x, double y) const { return {left + (x - x_lowest) * scale, top + (y_highest - y) * scale}; }
   };
   int width = 0, height = 0;
-  std::vector<Panel> panels;  ///< one per snapshot
+  std::vector<Panel> panels;       ///< one per snapshot
   double lowest = 0, highest = 0;  ///< ends of the colour range, SI
   Palette palette = Palette::uniform;
   Colour colour(double value) const { return palette_colour(palette, (value - lowest) / (highest - lowest)); }
@@ -56,8 +56,7 @@ struct PictureMap {
 /// "strain" when present), the bodies' outline, cracks by their two surfaces with the gap between them in white, a colour bar, axes
 /// and the time. Three-dimensional frames are seen along z.
 /// Throws std::invalid_argument (unknown quantity, magnification without displacements) and std::runtime_error "path: reason".
-PictureMap draw_frame(const PointFrame& particles, const CrackFrame* cracks, const DrawOptions& options,
-                      const std::filesystem::path& path);
+PictureMap draw_frame(const PointFrame& particles, const CrackFrame* cracks, const DrawOptions& options, const std::filesystem::path& path);
 
 /// Several snapshots in rows and columns, with one colour range and one window.
 PictureMap draw_panel(const std::vector<Snapshot>& snapshots, const DrawOptions& options, const std::filesystem::path& path);

@@ -18,12 +18,12 @@ struct Field {
 
 /// A set of points (particles or nodes) with fields; points in the order of their ids, so that frames can be compared.
 struct PointFrame {
-  double time = 0;        ///< s
+  double time = 0;  ///< s
   std::int64_t step = 0;
   int dimension = 2;
-  std::vector<double> positions;  ///< 3 per point, m
-  std::vector<Field> fields;      ///< particles always have "id" and "body"
-  double cell = 0;                ///< grid spacing, m (largest axis), for drawing
+  std::vector<double> positions;      ///< 3 per point, m
+  std::vector<Field> fields;          ///< particles always have "id" and "body"
+  double cell = 0;                    ///< grid spacing, m (largest axis), for drawing
   std::vector<double> particle_size;  ///< edge lengths of an undeformed particle, 3 per point, m; may be empty (nodes)
 };
 

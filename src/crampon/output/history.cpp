@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "crampon/core/closest_name.hpp"
 #include "crampon/output/file.hpp"
-#include "crampon/output/suggest.hpp"
 
 namespace crampon {
 
@@ -73,7 +73,7 @@ std::size_t History::column_index(std::string_view name) const {
     if (columns[k].name == name) return k;
     names.push_back(columns[k].name);
   }
-  throw std::out_of_range(fmt::format("the history has no column \"{}\"{}", name, suggest_name(name, names)));
+  throw std::out_of_range(fmt::format("the history has no column \"{}\"; {}", name, suggest_from(std::string(name), names)));
 }
 
 namespace {

@@ -83,7 +83,7 @@ Colour palette_colour(Palette palette, double t) {
 }
 
 const std::vector<Colour>& curve_colours() {
-  static const std::vector<Colour> colours{{0, 0, 0},        {0, 0.447, 0.698},     {0.835, 0.369, 0}, {0, 0.62, 0.451},
+  static const std::vector<Colour> colours{{0, 0, 0},           {0, 0.447, 0.698}, {0.835, 0.369, 0},    {0, 0.62, 0.451},
                                            {0.8, 0.475, 0.655}, {0.902, 0.624, 0}, {0.337, 0.706, 0.914}};
   return colours;
 }

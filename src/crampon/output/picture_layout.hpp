@@ -31,10 +31,10 @@ struct PictureLayout {
   std::array<double, 4> window{};  ///< x lowest, x highest, y lowest, y highest, m, of every plot
   double scale = 1;                ///< px per m
   DisplayScale length;
-  Ticks x_ticks, y_ticks;          ///< in units of `length`
+  Ticks x_ticks, y_ticks;  ///< in units of `length`
   Box bar;
-  Ticks bar_ticks;                 ///< in units of the bar's scale
-  double title_y = 0;              ///< middle of the title's line; 0: none
+  Ticks bar_ticks;     ///< in units of the bar's scale
+  double title_y = 0;  ///< middle of the title's line; 0: none
 };
 
 /// Fits `count` plots of the window into the width of the options; the window grows where a plot would be too small to read.

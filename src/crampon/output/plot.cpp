@@ -67,9 +67,12 @@ void paint_curve(Canvas& canvas, const Curve& curve, std::size_t index, const Pl
       continue;
     }
     const auto at = area.pixel(curve.x[i], curve.y[i]);
-    if (curve.style == CurveStyle::marks) mark(canvas, at[0], at[1], index, text);
-    else if (down) cairo_line_to(c, at[0], at[1]);
-    else cairo_move_to(c, at[0], at[1]);
+    if (curve.style == CurveStyle::marks)
+      mark(canvas, at[0], at[1], index, text);
+    else if (down)
+      cairo_line_to(c, at[0], at[1]);
+    else
+      cairo_move_to(c, at[0], at[1]);
     down = true;
   }
   cairo_stroke(c);
@@ -128,8 +131,8 @@ Range fitted(Range r, const std::optional<double>& lowest, const std::optional<d
 // Only the lowest of several areas numbers the shared axis.
 enum class AxisNumbers { shown, hidden };
 
-void paint_area(Canvas& canvas, const Area& area, const PlotMap::Area& map, const Ticks& x_ticks, const DisplayScale& x_scale,
-                double text, AxisNumbers numbers) {
+void paint_area(Canvas& canvas, const Area& area, const PlotMap::Area& map, const Ticks& x_ticks, const DisplayScale& x_scale, double text,
+                AxisNumbers numbers) {
   const double tick = 0.35 * text, bottom = map.top + map.height;
   for (const double t : x_ticks.at) {
     const double x = map.pixel(t * x_scale.factor, 0)[0];
@@ -137,7 +140,8 @@ void paint_area(Canvas& canvas, const Area& area, const PlotMap::Area& map, cons
     canvas.line(x, map.top, x, bottom, 1);
     canvas.set_colour(ink);
     canvas.line(x, bottom, x, bottom + tick, 1);
-    if (numbers == AxisNumbers::shown) canvas.text(x, bottom + tick + 0.1 * text, tick_label(t, x_ticks.step), text, AlignX::centre, AlignY::top);
+    if (numbers == AxisNumbers::shown)
+      canvas.text(x, bottom + tick + 0.1 * text, tick_label(t, x_ticks.step), text, AlignX::centre, AlignY::top);
   }
   for (const double t : area.ticks.at) {
     const double y = map.pixel(0, t * area.scale.factor)[1];
@@ -196,8 +200,7 @@ PlotMap plot_areas(std::vector<Area> areas, const PlotOptions& options, const st
       area.scale = display_scale(std::max(std::abs(y.lowest), std::abs(y.highest)), area.unit);
       const int most = std::max(2, static_cast<int>(height / (2.6 * text)));
       area.ticks = round_ticks(y.lowest / area.scale.factor, y.highest / area.scale.factor, most);
-      for (const double t : area.ticks.at)
-        widest_label = std::max(widest_label, canvas.text_width(tick_label(t, area.ticks.step), text));
+      for (const double t : area.ticks.at) widest_label = std::max(widest_label, canvas.text_width(tick_label(t, area.ticks.step), text));
     }
     left = std::floor(2.5 * text + widest_label + 0.3 * text + tick);
   }
@@ -209,8 +212,8 @@ PlotMap plot_areas(std::vector<Area> areas, const PlotOptions& options, const st
   PlotMap map{options.width, options.height, {}};
   for (std::size_t i = 0; i < areas.size(); ++i) {
     const Range y = fitted(areas[i].y, options.y_lowest, options.y_highest, 0.06);
-    map.areas.push_back({left, std::floor(top + static_cast<double>(i) * (height + between)), width, height, x.lowest, x.highest, y.lowest,
-                         y.highest});
+    map.areas.push_back(
+        {left, std::floor(top + static_cast<double>(i) * (height + between)), width, height, x.lowest, x.highest, y.lowest, y.highest});
     paint_area(canvas, areas[i], map.areas.back(), x_ticks, x_scale, text,
                i + 1 == areas.size() ? AxisNumbers::shown : AxisNumbers::hidden);
   }

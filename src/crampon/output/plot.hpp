@@ -21,10 +21,10 @@ struct Curve {
 };
 
 struct PlotOptions {
-  std::string title;
-  std::string x_name, x_unit, y_name, y_unit;  ///< plot_history fills those left empty
-  std::optional<double> x_lowest, x_highest, y_lowest, y_highest;  ///< SI; default: all points
-  int width = 1200, height = 720;              ///< px
+  std::string title{};
+  std::string x_name{}, x_unit{}, y_name{}, y_unit{};                      ///< plot_history fills those left empty
+  std::optional<double> x_lowest{}, x_highest{}, y_lowest{}, y_highest{};  ///< SI; default: all points
+  int width = 1200, height = 720;                                          ///< px
 };
 
 /// Where the areas of a plot lie, px.

@@ -27,8 +27,7 @@ void PvdSeries::append(double time, const std::string& file) {
   if (file.find_first_of("<>&\"") != std::string::npos)
     throw std::invalid_argument(fmt::format("{}: file name \"{}\" holds characters that XML reserves", path_.string(), file));
   entries_.push_back({time, file});
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
   for (const PvdEntry& e : entries_)
     text += fmt::format("<DataSet timestep=\"{:.17g}\" group=\"\" part=\"0\" file=\"{}\"/>\n", e.time, e.file);
   text += "</Collection>\n</VTKFile>\n";

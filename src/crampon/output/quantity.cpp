@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "crampon/output/suggest.hpp"
+#include "crampon/core/closest_name.hpp"
 
 namespace crampon {
 namespace {
@@ -61,8 +61,7 @@ Quantity evaluate_quantity(const PointFrame& frame, const std::string& name, dou
   if (const Field* field = find_field(frame, name)) {
     if (field->components == 1) return {name, field->unit, field->values};
     if (field->components == 3) return {name, field->unit, magnitude(*field)};
-    if (field->components == 6)
-      throw std::invalid_argument(fmt::format("\"{0}\" is a tensor; name a component, such as \"{0}_xx\"", name));
+    if (field->components == 6) throw std::invalid_argument(fmt::format("\"{0}\" is a tensor; name a component, such as \"{0}_xx\"", name));
   }
   if (const std::size_t cut = name.rfind('_'); cut != std::string::npos) {
     const Field* field = find_field(frame, std::string_view(name).substr(0, cut));
@@ -81,7 +80,7 @@ Quantity evaluate_quantity(const PointFrame& frame, const std::string& name, dou
     if (name == "von_mises") return {name, stress->unit, per_point(*stress, von_mises)};
     return {name, "", per_point(*stress, [&](const double* s) { return fringe(s, fringe_constant); })};
   }
-  throw std::invalid_argument(fmt::format("no quantity \"{}\"{}", name, suggest_name(name, quantity_names(frame))));
+  throw std::invalid_argument(fmt::format("no quantity \"{}\"; {}", name, suggest_from(name, quantity_names(frame))));
 }
 
 std::vector<std::string> quantity_names(const PointFrame& frame) {

@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* series_names[] = {"particles", "cracks", "grid"};
-constexpr const char* file_names[] = {"particles.pvd", "cracks.pvd",          "grid.pvd",
-                                      "history.csv",   "input.resolved.toml", "run.json"};
+constexpr const char* file_names[] = {"particles.pvd",       "cracks.pvd",          "grid.pvd", "history.csv",
+                                      "input.resolved.toml", "input.original.toml", "run.json"};
 
 std::string frame_name(std::string_view series, std::size_t index) { return fmt::format("{}_{:06}.vtp", series, index); }
 
@@ -60,14 +60,19 @@ void create_folder(const fs::path& path) {
 ResultsFolder::ResultsFolder(fs::path path)
     : path_(std::move(path)), particles_(particles_series()), cracks_(cracks_series()), grid_(grid_series()) {}
 
+void ResultsFolder::check(const fs::path& path, Overwrite overwrite) {
+  if (overwrite == Overwrite::replace || !fs::is_directory(path)) return;
+  const std::vector<fs::path> old = written_files(path);
+  if (!old.empty())
+    throw ResultsExist(fmt::format("{}: the folder already holds results ({} files, such as {}); choose another folder or say --force",
+                                   path.string(), old.size(), old.front().lexically_relative(path).string()));
+}
+
 ResultsFolder ResultsFolder::create(const fs::path& path, Overwrite overwrite) {
+  check(path, overwrite);
   if (fs::is_directory(path)) {
-    const std::vector<fs::path> old = written_files(path);
-    if (!old.empty() && overwrite == Overwrite::refuse)
-      throw ResultsExist(fmt::format("{}: the folder already holds results ({} files, such as {}); choose another folder or say --force",
-                                     path.string(), old.size(), old.front().lexically_relative(path).string()));
     std::error_code code;
-    for (const fs::path& file : old)
+    for (const fs::path& file : written_files(path))
       if (!fs::remove(file, code) && code) fail(file, "remove", code);
     for (const char* series : series_names) fs::remove(path / series, code);  // stays when something else is in it
   }

@@ -26,12 +26,14 @@ enum class Overwrite { refuse, replace };
 /// Names and time series of a results folder:
 ///   particles.pvd  particles/particles_000000.vtp ...     history.csv
 ///   cracks.pvd     cracks/cracks_000000.vtp ...           run.json
-///   grid.pvd       grid/grid_000000.vtp ...               input.resolved.toml
+///   grid.pvd       grid/grid_000000.vtp ...               input.resolved.toml, input.original.toml
 class ResultsFolder {
  public:
   /// For a run. Creates the folder and those above it. When a run wrote there before: refuse throws ResultsExist; replace removes the
   /// files a run writes and nothing else. Throws std::runtime_error "path: reason" when that cannot be done.
   static ResultsFolder create(const std::filesystem::path& path, Overwrite overwrite = Overwrite::refuse);
+  /// The ResultsExist that create would throw, without touching anything: to be asked before a long preparation.
+  static void check(const std::filesystem::path& path, Overwrite overwrite);
   /// For reading. Throws std::runtime_error when the folder is missing or holds no results.
   static ResultsFolder open(const std::filesystem::path& path);
 
@@ -39,6 +41,7 @@ class ResultsFolder {
   std::filesystem::path history() const { return path_ / "history.csv"; }
   std::filesystem::path run_record() const { return path_ / "run.json"; }
   std::filesystem::path resolved_input() const { return path_ / "input.resolved.toml"; }
+  std::filesystem::path original_input() const { return path_ / "input.original.toml"; }
   std::filesystem::path particles_series() const { return path_ / "particles.pvd"; }
   std::filesystem::path cracks_series() const { return path_ / "cracks.pvd"; }
   std::filesystem::path grid_series() const { return path_ / "grid.pvd"; }

@@ -9,24 +9,24 @@
 namespace crampon {
 
 struct RunRecord {
-  std::string status;           ///< "finished", "stopped: ..." or "running"
-  std::string version;          ///< of Crampon
+  std::string status;   ///< "finished", "stopped: ..." or "running"
+  std::string version;  ///< of Crampon
   std::string compiler;
   std::string instruction_set;  ///< of the kernels
   std::string started;          ///< UTC, ISO 8601
   int threads = 0;
-  std::string input;            ///< file name as given
+  std::string input;  ///< file name as given
   std::string title;
   std::int64_t particles = 0;
   std::int64_t steps = 0;
-  double end_time = 0;          ///< s, reached
-  double time_step = 0;         ///< s, of the first step
+  double end_time = 0;   ///< s, reached
+  double time_step = 0;  ///< s, of the first step
   double wall_seconds = 0, cpu_seconds = 0;
   struct Phase {
     std::string name;
     double seconds = 0;  ///< wall
   };
-  std::vector<Phase> phases;    ///< in the order of the time step
+  std::vector<Phase> phases;  ///< in the order of the time step
   double particle_steps_per_second = 0;
   double peak_memory_bytes = 0;
   std::uint64_t state_hash = 0;  ///< of the final state; stored as 16 hexadecimal digits

@@ -21,10 +21,10 @@ struct VtkArray {
 
 /// A poly data set of one piece. Cells are given by connectivity (point of each corner) and offsets (end of each cell).
 struct PolyData {
-  std::vector<VtkArray> field_data;           ///< stored as text, so a person can read the time in an editor
-  std::string string_name;                    ///< one array of strings in the field data; empty: none
+  std::vector<VtkArray> field_data;  ///< stored as text, so a person can read the time in an editor
+  std::string string_name;           ///< one array of strings in the field data; empty: none
   std::vector<std::string> strings;
-  VtkArray points;                            ///< 3 components
+  VtkArray points;  ///< 3 components
   std::vector<VtkArray> point_data, cell_data;
   std::vector<double> vertex_connectivity, vertex_offsets;
   std::vector<double> line_connectivity, line_offsets;

@@ -111,8 +111,8 @@ std::string decompress(std::string_view appended, std::size_t at) {
     const std::size_t old = raw.size();
     raw.resize(old + size);
     uLongf room = static_cast<uLongf>(size);
-    const int code = uncompress(reinterpret_cast<Bytef*>(raw.data() + old), &room,
-                                reinterpret_cast<const Bytef*>(appended.data() + body), static_cast<uLong>(packed));
+    const int code = uncompress(reinterpret_cast<Bytef*>(raw.data() + old), &room, reinterpret_cast<const Bytef*>(appended.data() + body),
+                                static_cast<uLong>(packed));
     if (code != Z_OK || room != size) damaged("a data block does not decompress");
     body += packed;
   }
@@ -157,10 +157,18 @@ VtkArray read_array(const Tag& tag, std::string_view appended) {
   }
   const std::string raw = decompress(appended, tag.count("offset"));
   switch (array.type) {
-    case VtkType::float32: array.values = values_as<float>(raw); break;
-    case VtkType::float64: array.values = values_as<double>(raw); break;
-    case VtkType::int32: array.values = values_as<std::int32_t>(raw); break;
-    case VtkType::int64: array.values = values_as<std::int64_t>(raw); break;
+    case VtkType::float32:
+      array.values = values_as<float>(raw);
+      break;
+    case VtkType::float64:
+      array.values = values_as<double>(raw);
+      break;
+    case VtkType::int32:
+      array.values = values_as<std::int32_t>(raw);
+      break;
+    case VtkType::int64:
+      array.values = values_as<std::int64_t>(raw);
+      break;
   }
   return array;
 }
@@ -174,8 +182,10 @@ std::vector<std::string> read_strings(const Tag& tag) {
     const long code = std::strtol(p, &end, 10);
     if (end == p) damaged("the list of names is too short");
     p = end;
-    if (code == 0) list.emplace_back();
-    else list.back() += static_cast<char>(code);
+    if (code == 0)
+      list.emplace_back();
+    else
+      list.back() += static_cast<char>(code);
   }
   list.pop_back();
   return list;
@@ -185,8 +195,7 @@ std::vector<std::string> read_strings(const Tag& tag) {
 std::string_view checked(std::string_view bytes) {
   constexpr std::string_view start = "<!-- crc32 ", end = " -->\n";
   constexpr std::size_t length = start.size() + 8 + end.size();
-  if (bytes.size() < length || bytes.substr(bytes.size() - length, start.size()) != start ||
-      bytes.substr(bytes.size() - end.size()) != end)
+  if (bytes.size() < length || bytes.substr(bytes.size() - length, start.size()) != start || bytes.substr(bytes.size() - end.size()) != end)
     damaged("it ends too early, or Crampon did not write it");
   const std::string_view digits = bytes.substr(bytes.size() - length + start.size(), 8);
   std::uint32_t stored = 0;
@@ -228,12 +237,18 @@ PolyData decode_poly_data(std::string_view bytes) {
     } else if (tag->name == "DataArray") {
       VtkArray array = read_array(*tag, appended);
       last = &discarded;
-      if (section == "FieldData") last = &data.field_data.emplace_back(std::move(array));
-      else if (section == "PointData") last = &data.point_data.emplace_back(std::move(array));
-      else if (section == "CellData") last = &data.cell_data.emplace_back(std::move(array));
-      else if (section == "Points") *(last = &data.points) = std::move(array);
-      else if (section == "Verts") (array.name == "offsets" ? data.vertex_offsets : data.vertex_connectivity) = std::move(array.values);
-      else if (section == "Lines") (array.name == "offsets" ? data.line_offsets : data.line_connectivity) = std::move(array.values);
+      if (section == "FieldData")
+        last = &data.field_data.emplace_back(std::move(array));
+      else if (section == "PointData")
+        last = &data.point_data.emplace_back(std::move(array));
+      else if (section == "CellData")
+        last = &data.cell_data.emplace_back(std::move(array));
+      else if (section == "Points")
+        *(last = &data.points) = std::move(array);
+      else if (section == "Verts")
+        (array.name == "offsets" ? data.vertex_offsets : data.vertex_connectivity) = std::move(array.values);
+      else if (section == "Lines")
+        (array.name == "offsets" ? data.line_offsets : data.line_connectivity) = std::move(array.values);
     } else if (!tag->name.starts_with('/')) {
       section = tag->name;
     }

@@ -20,11 +20,20 @@ std::string escape(std::string_view text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -32,10 +41,14 @@ std::string escape(std::string_view text) {
 
 const char* type_name(VtkType type) {
   switch (type) {
-    case VtkType::float32: return "Float32";
-    case VtkType::float64: return "Float64";
-    case VtkType::int32: return "Int32";
-    case VtkType::int64: break;
+    case VtkType::float32:
+      return "Float32";
+    case VtkType::float64:
+      return "Float64";
+    case VtkType::int32:
+      return "Int32";
+    case VtkType::int64:
+      break;
   }
   return "Int64";
 }
@@ -54,10 +67,14 @@ std::string raw_as(const std::vector<double>& values) {
 
 std::string raw_bytes(const VtkArray& array) {
   switch (array.type) {
-    case VtkType::float32: return raw_as<float>(array.values);
-    case VtkType::float64: return raw_as<double>(array.values);
-    case VtkType::int32: return raw_as<std::int32_t>(array.values);
-    case VtkType::int64: break;
+    case VtkType::float32:
+      return raw_as<float>(array.values);
+    case VtkType::float64:
+      return raw_as<double>(array.values);
+    case VtkType::int32:
+      return raw_as<std::int32_t>(array.values);
+    case VtkType::int64:
+      break;
   }
   return raw_as<std::int64_t>(array.values);
 }
@@ -81,8 +98,8 @@ void append_compressed(std::string& out, const std::string& raw) {
     const std::size_t old = body.size();
     body.resize(old + room);
     // Level 1: particle data are noise in their low bits, higher levels cost several times the time for a few per cent.
-    const int code = compress2(reinterpret_cast<Bytef*>(body.data() + old), &room,
-                               reinterpret_cast<const Bytef*>(raw.data() + from), static_cast<uLong>(size), 1);
+    const int code = compress2(reinterpret_cast<Bytef*>(body.data() + old), &room, reinterpret_cast<const Bytef*>(raw.data() + from),
+                               static_cast<uLong>(size), 1);
     if (code != Z_OK) throw std::runtime_error(fmt::format("zlib cannot compress (code {})", code));
     body.resize(old + room);
     append_word(header, room);
@@ -95,8 +112,8 @@ const char* const axis_names[] = {"X", "Y", "Z"};
 const char* const tensor_names[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
 
 std::string open_tag(const VtkArray& array) {
-  std::string tag = fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"", type_name(array.type),
-                                escape(array.name), array.components);
+  std::string tag = fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"", type_name(array.type), escape(array.name),
+                                array.components);
   const char* const* names = array.components == 3 ? axis_names : array.components == 6 ? tensor_names : nullptr;
   for (int k = 0; names && k < array.components; ++k) tag += fmt::format(" ComponentName{}=\"{}\"", k, names[k]);
   return tag;
@@ -115,8 +132,10 @@ class Document {
   void text_array(const VtkArray& a) {
     line(fmt::format("{} NumberOfTuples=\"{}\" format=\"ascii\">", open_tag(a), a.values.size()));
     for (const double v : a.values) {
-      if (a.type == VtkType::int64) line(fmt::format("{}", static_cast<std::int64_t>(v)));
-      else line(fmt::format("{:.17g}", v));
+      if (a.type == VtkType::int64)
+        line(fmt::format("{}", static_cast<std::int64_t>(v)));
+      else
+        line(fmt::format("{:.17g}", v));
     }
     line("</DataArray>");
   }
@@ -151,8 +170,8 @@ class Document {
 
 void check_length(const VtkArray& a, std::size_t items, const char* what) {
   if (a.components < 1 || a.values.size() != items * static_cast<std::size_t>(a.components))
-    throw std::invalid_argument(fmt::format("field \"{}\" has {} values, but {} {} of {} components need {}", a.name,
-                                            a.values.size(), items, what, a.components, items * a.components));
+    throw std::invalid_argument(fmt::format("field \"{}\" has {} values, but {} {} of {} components need {}", a.name, a.values.size(),
+                                            items, what, a.components, items * a.components));
 }
 
 }  // namespace
@@ -166,16 +185,18 @@ std::string encode_poly_data(const PolyData& data) {
 
   Document doc;
   doc.line("<?xml version=\"1.0\"?>");
-  doc.line("<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
-           "compressor=\"vtkZLibDataCompressor\">");
+  doc.line(
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+      "compressor=\"vtkZLibDataCompressor\">");
   doc.line("<PolyData>");
   doc.line("<FieldData>");
   for (const VtkArray& a : data.field_data) doc.text_array(a);
   if (!data.string_name.empty()) doc.strings(data.string_name, data.strings);
   doc.line("</FieldData>");
-  doc.line(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
-                       "NumberOfPolys=\"0\">",
-                       points, vertices, lines));
+  doc.line(
+      fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
+                  "NumberOfPolys=\"0\">",
+                  points, vertices, lines));
   doc.line("<PointData>");
   for (const VtkArray& a : data.point_data) doc.array(a);
   doc.line("</PointData>");

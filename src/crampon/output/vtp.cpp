@@ -24,8 +24,7 @@ VtkType real_type(Precision precision) { return precision == Precision::full ? V
 bool is_label(const Field& field) {
   static constexpr std::array<std::string_view, 6> names{"id", "body", "material", "node", "velocity_field", "crack"};
   return std::find(names.begin(), names.end(), field.name) != names.end() &&
-         std::all_of(field.values.begin(), field.values.end(),
-                     [](double v) { return std::trunc(v) == v && std::abs(v) < 9e15; });
+         std::all_of(field.values.begin(), field.values.end(), [](double v) { return std::trunc(v) == v && std::abs(v) < 9e15; });
 }
 
 VtkArray array_of(const Field& field, Precision precision) {
@@ -67,8 +66,10 @@ PointFrame point_frame(PolyData&& data) {
   frame.cell = scalar(data, "cell");
   frame.positions = std::move(data.points.values);
   for (VtkArray& a : data.point_data) {
-    if (a.name == size_name) frame.particle_size = std::move(a.values);
-    else frame.fields.push_back(field_of(std::move(a)));
+    if (a.name == size_name)
+      frame.particle_size = std::move(a.values);
+    else
+      frame.fields.push_back(field_of(std::move(a)));
   }
   return frame;
 }
@@ -94,8 +95,10 @@ CrackFrame crack_frame(PolyData&& data) {
   frame.lower = third(data.points.values, 2, 3);
   for (VtkArray& a : data.point_data) {
     a.values = third(a.values, 0, static_cast<std::size_t>(a.components));
-    if (a.name == original_name) frame.original = std::move(a.values);
-    else frame.fields.push_back(field_of(std::move(a)));
+    if (a.name == original_name)
+      frame.original = std::move(a.values);
+    else
+      frame.fields.push_back(field_of(std::move(a)));
   }
   return frame;
 }

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <optional>
-#include <thread>
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "crampon/core/closest_name.hpp"
 #include "crampon/output/file.hpp"
@@ -82,7 +80,7 @@ class Recorder {
 
 RunRecord describe_run(const Problem& problem, const Simulation& simulation, const RunOptions& options) {
   RunRecord record = describe_program();
-  record.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  record.threads = options.threads;
   record.input = options.input;
   record.title = problem.title;
   const SimulationSize size = simulation.size();
@@ -109,6 +107,8 @@ void update(RunRecord& record, const Simulation& simulation, const Recorder& rec
 }
 
 }  // namespace
+
+int default_threads() { return omp_get_max_threads(); }
 
 void check_against_simulation(const Problem& problem, const Simulation& simulation) {
   std::vector<Diagnostic> found;

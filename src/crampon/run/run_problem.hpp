@@ -23,7 +23,7 @@ struct Progress {
 struct RunOptions {
   std::filesystem::path folder;  ///< of the results
   Overwrite overwrite = Overwrite::refuse;
-  int threads = 0;    ///< for the record; the simulation was created with it. <= 0: all cores
+  int threads = 1;    ///< for the record: the simulation was created with it
   std::string input;  ///< name of the input file, for the record
   std::function<void(const Progress&)> progress;
   const std::atomic<bool>* interrupt = nullptr;  ///< set from outside (Ctrl-C): the run ends in order after the present step
@@ -39,6 +39,9 @@ struct RunOutcome {
   RunRecord record;     ///< as in run.json
   std::filesystem::path folder;
 };
+
+/// Threads when the user names no number: OMP_NUM_THREADS, else one per core that this process may use.
+int default_threads();
 
 /// Frames as problem.output asks, each at its time exactly, and always a first and a last one; history rows; input.original.toml and
 /// input.resolved.toml; run.json, which says "running" until the end.

@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "crampon/core/units.hpp"
+#include "crampon/output/draw.hpp"
+#include "crampon/output/plot.hpp"
+#include "crampon/output/results_folder.hpp"
+#include "crampon/output/run_record.hpp"
+
+namespace crampon::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "5 MPa" or "5e6" in SI.
+double number(const std::string& text, const char* option, const char* unit) {
+  try {
+    return parse_quantity(text, unit);
+  } catch (const UnitError& error) {
+    throw UsageError(fmt::format("{}: {}", option, error.what()));
+  }
+}
+
+struct Grid {
+  int rows = 0, columns = 0;
+};
+
+Grid panel_grid(const std::string& text) {
+  Grid grid;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &grid.rows, &grid.columns, &rest) != 2 || grid.rows < 1 || grid.columns < 1 ||
+      grid.rows > 20 || grid.columns > 20)
+    throw UsageError(fmt::format("--panel {}: rows and columns are wanted, such as 2x3 (at most 20x20)", text));
+  return grid;
+}
+
+/// Which frames to draw, as indices into the series.
+std::vector<std::size_t> choose_frames(const DrawArguments& arguments, const std::vector<PvdEntry>& frames) {
+  const auto count = static_cast<std::ptrdiff_t>(frames.size());
+  std::vector<std::size_t> chosen;
+  for (const int wanted : arguments.frames) {
+    const std::ptrdiff_t index = wanted < 0 ? count + wanted : wanted;
+    if (index < 0 || index >= count) throw UsageError(fmt::format("--frame {}: there are {} frames, numbered from 0", wanted, count));
+    chosen.push_back(static_cast<std::size_t>(index));
+  }
+  for (const std::string& text : arguments.times) {
+    const double wanted = number(text, "--time", "s");
+    const auto nearest = std::min_element(frames.begin(), frames.end(), [wanted](const PvdEntry& a, const PvdEntry& b) {
+      return std::abs(a.time - wanted) < std::abs(b.time - wanted);
+    });
+    chosen.push_back(static_cast<std::size_t>(nearest - frames.begin()));
+  }
+  if (arguments.all)
+    for (std::size_t i = 0; i < frames.size(); ++i) chosen.push_back(i);
+  if (!chosen.empty()) return chosen;
+  if (arguments.panel.empty()) return {frames.size() - 1};
+  const Grid grid = panel_grid(arguments.panel);
+  const auto places = std::min<std::size_t>(static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns), frames.size());
+  for (std::size_t k = 0; k < places; ++k)  // evenly spread, the last frame always
+    chosen.push_back(places == 1 ? frames.size() - 1 : (k * (frames.size() - 1) + (places - 1) / 2) / (places - 1));
+  return chosen;
+}
+
+DrawOptions picture_options(const DrawArguments& arguments, const std::string& title) {
+  DrawOptions options;
+  if (!arguments.quantity.empty()) options.quantity = arguments.quantity;
+  if (arguments.fringes) {
+    if (!arguments.quantity.empty()) throw UsageError("--fringes and --quantity are both given; each says what to colour by");
+    options.quantity = "fringes";
+  }
+  if (arguments.palette == "uniform") options.palette = Palette::uniform;
+  if (arguments.palette == "grey") options.palette = Palette::grey;
+  if (arguments.palette == "diverging") options.palette = Palette::diverging;
+  if (arguments.symmetric) options.range = ColourRange::symmetric;
+  if (arguments.range.size() == 2) {
+    options.lowest = number(arguments.range[0], "--range", "any");
+    options.highest = number(arguments.range[1], "--range", "any");
+    if (!(*options.lowest < *options.highest)) throw UsageError("--range: the first value must be below the second");
+  }
+  if (arguments.window.size() == 4) {
+    std::array<double, 4>& window = options.window.emplace();
+    for (std::size_t k = 0; k < 4; ++k) window[k] = number(arguments.window[k], "--window", "m");
+    if (!(window[0] < window[1] && window[2] < window[3])) throw UsageError("--window: X0 < X1 and Y0 < Y1 are wanted");
+  }
+  options.magnification = arguments.magnify;
+  options.fringe_constant = arguments.fringe_constant.value_or(paper_fringe_constant);
+  options.title = title;
+  options.width = arguments.width;
+  if (!arguments.panel.empty()) options.columns = panel_grid(arguments.panel).columns;
+  return options;
+}
+
+void made(const fs::path& file) { fmt::print("{}\n", file.string()); }
+
+fs::path prepared(const fs::path& file) {
+  if (file.has_parent_path()) fs::create_directories(file.parent_path());
+  return file;
+}
+
+void plot(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& title) {
+  PlotOptions options;
+  options.title = title;
+  options.width = arguments.width;
+  options.height = arguments.width * 3 / 5;
+  const fs::path file = prepared(arguments.output.empty() ? folder.path() / "pictures" / "history.png" : fs::path(arguments.output));
+  plot_history(read_history(folder.history()), arguments.history, options, file);
+  made(file);
+}
+
+/// A frame with its cracks, in memory.
+struct Moment {
+  PointFrame particles;
+  std::optional<CrackFrame> cracks;
+  Snapshot snapshot() const { return {&particles, cracks ? &*cracks : nullptr}; }
+};
+
+Moment read_moment(const ResultsFolder& folder, const PvdEntry& entry, const std::vector<PvdEntry>& cracks) {
+  Moment moment{folder.read_particles(entry), std::nullopt};
+  const auto found = std::find_if(cracks.begin(), cracks.end(), [&entry](const PvdEntry& c) { return c.time == entry.time; });
+  if (found != cracks.end()) moment.cracks = folder.read_cracks(*found);
+  return moment;
+}
+
+/// One colour range for a whole series, so that its pictures can be compared: found frame by frame, as all of them may not fit in memory.
+void fix_range(DrawOptions& options, const ResultsFolder& folder, const std::vector<PvdEntry>& frames, const std::vector<std::size_t>& chosen) {
+  if (chosen.size() < 2 || options.quantity == "fringes" || (options.lowest && options.highest)) return;
+  double lowest = INFINITY, highest = -INFINITY;
+  for (const std::size_t i : chosen) {
+    for (const double value : evaluate_quantity(folder.read_particles(frames[i]), options.quantity, options.fringe_constant).values) {
+      if (!std::isfinite(value)) continue;
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+    }
+  }
+  if (options.range == ColourRange::symmetric) {
+    highest = std::max(std::abs(lowest), std::abs(highest));
+    lowest = -highest;
+  }
+  if (!(lowest < highest)) return;  // one value everywhere: each picture finds a range around it
+  if (!options.lowest) options.lowest = lowest;
+  if (!options.highest) options.highest = highest;
+}
+
+void draw_pictures(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& title) {
+  const std::vector<PvdEntry> frames = folder.particle_frames(), cracks = folder.crack_frames();
+  if (frames.empty()) throw UsageError(fmt::format("{}: there are no frames to draw", folder.path().string()));
+  const std::vector<std::size_t> chosen = choose_frames(arguments, frames);
+  DrawOptions options = picture_options(arguments, title);
+
+  if (!arguments.panel.empty()) {
+    std::deque<Moment> moments;
+    std::vector<Snapshot> snapshots;
+    for (const std::size_t i : chosen) snapshots.push_back(moments.emplace_back(read_moment(folder, frames[i], cracks)).snapshot());
+    const fs::path file = prepared(arguments.output.empty() ? folder.path() / "pictures" / (options.quantity + "_panel.png")
+                                                            : fs::path(arguments.output));
+    draw_panel(snapshots, options, file);
+    made(file);
+    return;
+  }
+  fix_range(options, folder, frames, chosen);
+  for (const std::size_t i : chosen) {
+    const bool one = chosen.size() == 1 && !arguments.all;
+    const fs::path into = arguments.output.empty() ? folder.path() / "pictures" : fs::path(arguments.output);
+    const fs::path file = prepared(one && !arguments.output.empty() ? into : into / fmt::format("{}_{:06}.png", options.quantity, i));
+    const Moment moment = read_moment(folder, frames[i], cracks);
+    draw_frame(moment.particles, moment.cracks ? &*moment.cracks : nullptr, options, file);
+    made(file);
+  }
+}
+
+}  // namespace
+
+int draw_command(const DrawArguments& arguments) {
+  const ResultsFolder folder = ResultsFolder::open(arguments.results);
+  const std::string title = arguments.title.value_or(read_run_record(folder.run_record()).title);
+  try {
+    if (!arguments.history.empty())
+      plot(arguments, folder, title);
+    else
+      draw_pictures(arguments, folder, title);
+  } catch (const std::invalid_argument& error) {  // names that these results do not know
+    throw UsageError(error.what());
+  } catch (const std::out_of_range& error) {
+    throw UsageError(error.what());
+  }
+  return exit_ok;
+}
+
+}  // namespace crampon::app

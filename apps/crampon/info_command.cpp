@@ -1,0 +1,70 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "crampon/output/history.hpp"
+#include "crampon/output/quantity.hpp"
+#include "crampon/output/results_folder.hpp"
+#include "crampon/output/run_record.hpp"
+#include "terminal.hpp"
+
+namespace crampon::app {
+namespace {
+
+void line(const char* what, const std::string& value) { fmt::print("  {:<14} {}\n", what, value); }
+
+void print_frames(const char* name, const std::vector<PvdEntry>& frames) {
+  if (!frames.empty())
+    line(name, fmt::format("{} frames, t = {:.6g} s to {:.6g} s", frames.size(), frames.front().time, frames.back().time));
+}
+
+void print_record(const RunRecord& record) {
+  if (!record.title.empty()) line("title", record.title);
+  line("input", record.input);
+  line("status", record.status);
+  line("started", record.started);
+  line("program", fmt::format("crampon {}, {}, {}", record.version, record.compiler, record.instruction_set));
+  line("particles", count_text(static_cast<double>(record.particles)));
+  line("steps", fmt::format("{}, the first of {:.6g} s", count_text(static_cast<double>(record.steps)), record.time_step));
+  line("end time", fmt::format("{:.6g} s", record.end_time));
+  line("wall time", fmt::format("{} with {} threads (CPU {})", duration_text(record.wall_seconds), record.threads, duration_text(record.cpu_seconds)));
+  line("speed", fmt::format("{:.3g} million particle-steps per second", record.particle_steps_per_second * 1e-6));
+  line("peak memory", bytes_text(record.peak_memory_bytes));
+  line("state hash", fmt::format("{:016x}", record.state_hash));
+  for (const std::string& note : record.notes) line("note", note);
+  double total = 0;
+  for (const RunRecord::Phase& phase : record.phases) total += phase.seconds;
+  if (total <= 0) return;
+  fmt::print("\n  time by phase\n");
+  for (const RunRecord::Phase& phase : record.phases)
+    fmt::print("    {:<28} {:>10}  {:4.1f} %\n", phase.name, duration_text(phase.seconds), 100 * phase.seconds / total);
+}
+
+}  // namespace
+
+int info_command(const InfoArguments& arguments) {
+  const ResultsFolder folder = ResultsFolder::open(arguments.results);
+  const RunRecord record = read_run_record(folder.run_record());
+  if (arguments.hash) {
+    if (record.status == "running") throw UsageError(fmt::format("{}: the run has not ended in order; there is no final state", arguments.results));
+    fmt::print("{:016x}\n", record.state_hash);
+    return exit_ok;
+  }
+  fmt::print("{}\n", styled(stdout, Style::bold, arguments.results));
+  print_record(record);
+
+  fmt::print("\n");
+  const std::vector<PvdEntry> frames = folder.particle_frames();
+  print_frames("particles.pvd", frames);
+  print_frames("cracks.pvd", folder.crack_frames());
+  print_frames("grid.pvd", folder.grid_frames());
+  if (!frames.empty()) line("quantities", fmt::format("{}", fmt::join(quantity_names(folder.read_particles(frames.back())), ", ")));
+  const History history = read_history(folder.history());
+  std::vector<std::string> columns;
+  for (const HistoryColumn& column : history.columns) columns.push_back(fmt::format("{}[{}]", column.name, column.unit));
+  line("history.csv", fmt::format("{} rows: {}", history.rows(), fmt::join(columns, ", ")));
+  return exit_ok;
+}
+
+}  // namespace crampon::app

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "crampon/input/read_problem.hpp"
+#include "crampon/run/estimate.hpp"
+#include "crampon/run/run_problem.hpp"
+#include "terminal.hpp"
+
+namespace crampon::app {
+
+int validate_command(const ValidateArguments& arguments) {
+  const Problem problem = read_problem(arguments.input, arguments.settings);
+  const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
+  const auto simulation = Simulation::create(problem, threads);
+  check_against_simulation(problem, *simulation);
+  const SimulationSize size = simulation->size();
+  const double end_time = simulation->end_time();
+
+  const auto line = [](const char* what, const std::string& value) { fmt::print("  {:<14} {}\n", what, value); };
+  fmt::print("{}: {}\n", arguments.input, styled(stdout, Style::green, "valid"));
+  if (!problem.title.empty()) line("title", problem.title);
+  line("particles", count_text(static_cast<double>(size.particles)));
+  line("cells", fmt::format("{}, of which {} in blocks with particles", count_text(static_cast<double>(size.cells)),
+                            count_text(static_cast<double>(size.active_cells))));
+  if (size.cracks > 0) line("cracks", fmt::format("{} with {} segments", size.cracks, size.crack_segments));
+  line("steps", count_text(static_cast<double>(size.steps)));
+  line("time step", fmt::format("{:.6g} s", size.time_step));
+  line("end time", fmt::format("{:.6g} s", end_time));
+  line("memory", bytes_text(size.memory_bytes));
+  std::fflush(stdout);
+
+  const RunEstimate estimate = estimate_run(*simulation);
+  if (!estimate.stopped.empty()) {
+    fmt::print(stderr, "{} {}\n", styled(stderr, Style::red, "crampon: the run would stop:"), estimate.stopped);
+    return exit_run_stopped;
+  }
+  line("expected time", fmt::format("{} with {} thread{}, output apart ({} steps measured, {} each)", duration_text(estimate.seconds), threads,
+                                    threads == 1 ? "" : "s", estimate.steps_measured, duration_text(estimate.seconds_per_step)));
+  return exit_ok;
+}
+
+}  // namespace crampon::app

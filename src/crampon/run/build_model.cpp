@@ -1,0 +1,303 @@
+#include "crampon/run/build_model.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "crampon/geometry/arc.hpp"
+#include "crampon/run/build_bodies.hpp"
+
+namespace crampon {
+
+namespace {
+
+template <int Dim>
+Grid<Dim> build_grid(const GridInput& in) {
+  Vec<Dim> origin, cell;
+  IndexVector<Dim> cells{};
+  for (int k = 0; k < Dim; ++k) {
+    origin[k] = in.origin[static_cast<std::size_t>(k)];
+    cell[k] = in.cell.size() == 1 ? in.cell[0] : in.cell[static_cast<std::size_t>(k)];
+    cells[k] = static_cast<int>(std::lround(in.size[static_cast<std::size_t>(k)] / cell[k]));
+  }
+  return Grid<Dim>(origin, cell, cells);
+}
+
+/// f(node number, position) for nodes within a box, as far out as stencils reach beyond the grid.
+template <int Dim, class F>
+void for_nodes(const Grid<Dim>& grid, const Bounds3& box, F f) {
+  constexpr int beyond = 2;
+  IndexVector<Dim> low{}, high{};
+  for (int k = 0; k < Dim; ++k) {
+    const auto index = [&](double x) { return std::fmin(std::fmax((x - grid.origin[k]) * grid.inverse_cell[k], -beyond), grid.cells[k] + beyond); };
+    low[k] = static_cast<int>(std::floor(index(box.low[k]) - 1e-6));
+    high[k] = static_cast<int>(std::ceil(index(box.high[k]) + 1e-6));
+    low[k] = std::max(low[k], -beyond);
+    high[k] = std::min(high[k], grid.cells[k] + beyond);
+    if (low[k] > high[k]) return;
+  }
+  IndexVector<Dim> node = low;
+  for (;;) {
+    f(grid.node_number(node), grid.node_position(node));
+    int k = 0;
+    while (k < Dim && ++node[k] > high[k]) node[k] = low[k], ++k;
+    if (k == Dim) return;
+  }
+}
+
+template <int Dim>
+void build_conditions(const Problem& problem, Model<Dim>& model, std::vector<Diagnostic>& errors) {
+  for (const BoundaryInput& in : problem.boundaries) {
+    VelocityCondition<Dim> c;
+    c.name = in.name;
+    c.start = in.start;
+    c.end = in.end;
+    const std::optional<ValueFunction>* components[3] = {&in.vx, &in.vy, &in.vz};
+    for (int k = 0; k < Dim; ++k) {
+      if (*components[k]) c.components.push_back({k, **components[k]});
+    }
+    const double slack = 1e-9 * model.grid.smallest_cell();
+    Bounds3 box = in.region->bounds();
+    for (int k = 0; k < 3; ++k) box.low[k] -= slack, box.high[k] += slack;
+    for_nodes(model.grid, box, [&](std::int64_t number, const Vec<Dim>& x) {
+      if (in.region->contains(in_space(x), slack)) c.nodes.push_back(number);
+    });
+    if (c.nodes.empty()) {
+      errors.push_back({in.at("region"), fmt::format("no node of the grid lies in the region of \"{}\"", in.name), "the condition would do nothing",
+                        "let the region pass through grid lines or enlarge it"});
+    }
+    model.conditions.push_back(std::move(c));
+  }
+  for (const SymmetryInput& in : problem.symmetries) {
+    SymmetryPlane plane;
+    plane.axis = in.axis;
+    plane.side = in.side;
+    const auto index = std::lround((in.at - model.grid.origin[in.axis]) * model.grid.inverse_cell[in.axis]);
+    plane.at = model.grid.node_coordinate(in.axis, static_cast<int>(index));  // the very coordinate of the nodes there
+    for (std::size_t k = 0; k < in.from.size(); ++k) plane.from[k] = in.from[k];
+    for (std::size_t k = 0; k < in.to.size(); ++k) plane.to[k] = in.to[k];
+    VelocityCondition<Dim> c;
+    c.name = in.name;
+    c.symmetry = true;
+    c.end = std::numeric_limits<double>::infinity();
+    c.components.push_back({in.axis, ValueFunction()});
+    Bounds3 box{{{-1e300, -1e300, -1e300}}, {{1e300, 1e300, 1e300}}};
+    box.low[in.axis] = box.high[in.axis] = plane.at;
+    for_nodes(model.grid, box, [&](std::int64_t number, const Vec<Dim>& x) {
+      if (on_plane<Dim>(plane, x)) c.nodes.push_back(number);
+    });
+    model.symmetries.push_back(plane);
+    model.conditions.push_back(std::move(c));
+  }
+}
+
+void build_cracks(const Problem& problem, const Grid<2>& grid, Cracks<2>& cracks, std::vector<ContactLawSpec>& laws, std::vector<Diagnostic>& errors) {
+  for (const CrackInput& in : problem.cracks) {
+    const double longest = in.max_segment.value_or(0.5 * grid.smallest_cell());
+    Crack<2> crack;
+    crack.name = in.name;
+    crack.fixed = in.fixed;
+    if (in.arc) {
+      const int segments = in.arc->segments > 0 ? static_cast<int>(in.arc->segments)
+                                                : count_arc_segments(in.arc->radius, in.arc->from, in.arc->to, longest);
+      crack.plane = divide_arc({{in.arc->centre[0], in.arc->centre[1]}}, in.arc->radius, in.arc->from, in.arc->to, segments);
+    } else {
+      std::vector<Vec<2>> points;
+      for (const auto& p : in.points) points.push_back({{p[0], p[1]}});
+      crack.plane = divide_polyline(points, longest);
+    }
+    for (const Vec<2>& v : crack.plane) {
+      if (grid.contains(v)) continue;
+      errors.push_back({in.at(in.arc ? "arc" : "points"), fmt::format("the crack \"{}\" reaches out of the grid at ({:.6g}, {:.6g}) m", in.name, v[0], v[1]),
+                        "", "enlarge the grid or move the crack"});
+      break;
+    }
+    crack.closed = crack.plane.size() > 3 && crack.plane.front() == crack.plane.back();
+    crack.upper = crack.lower = crack.original = crack.plane;
+    for (VertexId v = 0; v + 1 < crack.plane.size(); ++v) crack.facets.push_back({v, v + 1});
+    cracks.list.push_back(std::move(crack));
+    laws.push_back(in.contact);
+  }
+}
+
+/// The particles of a body that have no neighbour of their body on one side of the lattice.
+template <int Dim>
+std::vector<std::size_t> face_particles(const BuiltBodies<Dim>& bodies, const Grid<Dim>& grid, std::size_t body, int axis, int direction) {
+  std::set<std::array<std::int64_t, Dim>> taken;
+  const auto place = [&](const Vec<Dim>& x) {
+    std::array<std::int64_t, Dim> i;
+    for (int k = 0; k < Dim; ++k) i[k] = std::llround((x[k] - grid.origin[k]) * grid.inverse_cell[k] * bodies.per_cell[body][k] - 0.5);
+    return i;
+  };
+  for (const auto& p : bodies.particles) {
+    if (p.body == body) taken.insert(place(p.x));
+  }
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < bodies.particles.size(); ++i) {
+    if (bodies.particles[i].body != body) continue;
+    auto beside = place(bodies.particles[i].x);
+    beside[axis] += direction;
+    if (!taken.contains(beside)) out.push_back(i);
+  }
+  return out;
+}
+
+template <int Dim>
+class LoadBuilder {
+ public:
+  LoadBuilder(const Problem& problem, const BuiltBodies<Dim>& bodies, Model<Dim>& model, std::vector<Diagnostic>& errors)
+      : problem_(problem), bodies_(bodies), model_(model), errors_(errors) {}
+
+  void add(const LoadInput& in) {
+    ParticleLoad<Dim> load;
+    load.name = in.name;
+    const bool on_face = in.kind == LoadInput::Kind::traction || in.kind == LoadInput::Kind::pressure;
+    for (int k = 0; k < Dim; ++k) {
+      load.value.push_back(in.value.empty() ? ValueFunction() : in.value[std::min<std::size_t>(static_cast<std::size_t>(k), in.value.size() - 1)]);
+    }
+    on_face ? add_face(in, load) : add_forces(in, load);
+    if (load.particles.empty()) {
+      errors_.push_back({in.region ? in.at("region") : in.location, fmt::format("no particle carries the load \"{}\"", in.name),
+                         "its region and body select none", "enlarge the region or correct the body"});
+    }
+    model_.loads.push_back(std::move(load));
+  }
+
+ private:
+  bool selected(const LoadInput& in, const NewParticle<Dim>& p) const {
+    if (!in.body.empty() && problem_.bodies[p.body].name != in.body) return false;
+    return !in.region || in.region->contains(in_space(p.x), 1e-9 * model_.grid.smallest_cell());
+  }
+
+  void add_forces(const LoadInput& in, ParticleLoad<Dim>& load) const {
+    double volume = 0;
+    for (std::size_t i = 0; i < bodies_.particles.size(); ++i) {
+      if (!selected(in, bodies_.particles[i])) continue;
+      load.particles.push_back(static_cast<std::uint32_t>(i));
+      volume += bodies_.particles[i].volume;
+    }
+    for (const std::uint32_t i : load.particles) {
+      const double share = in.kind == LoadInput::Kind::total_force ? bodies_.particles[i].volume / volume : 1.;
+      Vec<Dim> s;
+      for (int k = 0; k < Dim; ++k) s[k] = share;
+      load.share.push_back(s);
+    }
+  }
+
+  void add_face(const LoadInput& in, ParticleLoad<Dim>& load) {
+    const std::string& face = *in.face;
+    const int axis = face[0] - 'x', direction = face[1] == '+' ? 1 : -1;
+    for (std::size_t b = 0; b < problem_.bodies.size(); ++b) {
+      if (!in.body.empty() && problem_.bodies[b].name != in.body) continue;
+      if (!bodies_.on_lattice[b]) {
+        errors_.push_back({in.at("face"), fmt::format("the body \"{}\" comes from a file and has no faces", problem_.bodies[b].name),
+                           "tractions act on the faces of a filled shape's cells", "use force_each on a region instead"});
+        return;
+      }
+      double area = Dim == 2 ? problem_.bodies[b].thickness : 1.;
+      for (int k = 0; k < Dim; ++k) {
+        if (k != axis) area *= model_.grid.cell[k] / bodies_.per_cell[b][k];
+      }
+      for (const std::size_t i : face_particles(bodies_, model_.grid, b, axis, direction)) {
+        if (!selected(in, bodies_.particles[i])) continue;
+        Vec<Dim> share;
+        if (in.kind == LoadInput::Kind::pressure) {
+          share[axis] = -direction * area;
+        } else {
+          for (int k = 0; k < Dim; ++k) share[k] = area;
+        }
+        load.particles.push_back(static_cast<std::uint32_t>(i));
+        load.share.push_back(share);
+      }
+    }
+  }
+
+  const Problem& problem_;
+  const BuiltBodies<Dim>& bodies_;
+  Model<Dim>& model_;
+  std::vector<Diagnostic>& errors_;
+};
+
+template <int Dim>
+void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, State<Dim>& state) {
+  int history = 0;
+  for (const auto& m : model.materials) history = std::max(history, m.law->history_size(Dim));
+  // One run per material in the order of creation; the first step re-orders them by block.
+  std::vector<std::vector<std::uint32_t>> by_material(model.materials.size());
+  for (std::size_t i = 0; i < bodies.particles.size(); ++i) by_material[bodies.particles[i].material].push_back(static_cast<std::uint32_t>(i));
+  std::uint32_t packs = 0;
+  for (std::size_t m = 0; m < by_material.size(); ++m) {
+    const auto count = static_cast<std::uint32_t>((by_material[m].size() + lanes - 1) / lanes);
+    state.blocks.runs.push_back({packs, packs + count, static_cast<std::uint32_t>(m)});
+    packs += count;
+  }
+  Particles<Dim>& particles = state.particles;
+  particles.allocate(packs, history);
+  for (std::size_t m = 0; m < by_material.size(); ++m) {
+    const Run& run = state.blocks.runs[m];
+    for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
+      Pack* law_history = particles.history.data() + k * static_cast<std::size_t>(history);
+      for (int c = 0; c < history; ++c) law_history[c] = splat(0.);
+      model.materials[m].law->initialise(Dim, &particles.stress[k * stress_size<Dim>], law_history);
+      for (int l = 0; l < lanes; ++l) {
+        const std::size_t slot = k * lanes + l, i = slot - std::size_t{run.first_pack} * lanes;
+        const bool real = i < by_material[m].size();
+        const NewParticle<Dim>& p = bodies.particles[by_material[m][real ? i : by_material[m].size() - 1]];
+        particles.set_motion(slot, p.x, p.v);
+        particles.mass_volume[2 * k][l] = real ? p.mass : 0.;
+        particles.mass_volume[2 * k + 1][l] = real ? p.volume : 0.;
+        particles.original[slot] = p.x;
+        particles.id[slot] = real ? by_material[m][i] : padding_id;
+        particles.body[slot] = p.body;
+      }
+    }
+  }
+  state.particle_count = bodies.particles.size();
+}
+
+}  // namespace
+
+template <int Dim>
+BuiltModel<Dim> build_model(const Problem& problem, int threads) {
+  BuiltModel<Dim> out;
+  Model<Dim>& model = out.model;
+  std::vector<Diagnostic> errors;
+  model.threads = threads > 0 ? threads : omp_get_num_procs();
+  model.grid = build_grid<Dim>(problem.grid);
+  model.stress_state = problem.analysis == Analysis::plane_strain   ? StressState::plane_strain
+                       : problem.analysis == Analysis::plane_stress ? StressState::plane_stress
+                                                                    : StressState::three_dimensional;
+  model.stress_update = problem.method.stress_update;
+  model.shape_functions = problem.method.shape_functions;
+  model.boundary_order = problem.method.boundary_order;
+  model.fixed_force = problem.method.fixed_force;
+  model.leaving_particle = problem.method.leaving_particle;
+  model.body_force = problem.method.body_force;
+  model.damping = problem.method.damping;
+  model.damped = model.damping.depends_on_time() || model.damping(0, {}) != 0;
+  model.contact = {problem.contact.scheme,           problem.contact.detection,      problem.contact.pairs,
+                   problem.contact.reference_volume, problem.contact.volume_separated, problem.contact.volume_contact,
+                   problem.contact.require_approach, problem.contact.mass_screen};
+
+  BuiltBodies<Dim> bodies = build_bodies<Dim>(problem, model.grid, errors);
+  model.materials = std::move(bodies.materials);
+  for (const BodyInput& body : problem.bodies) model.bodies.push_back(body.name);
+  build_conditions(problem, model, errors);
+  if constexpr (Dim == 2) build_cracks(problem, model.grid, out.state.cracks, model.crack_laws, errors);
+  if (errors.empty()) {
+    LoadBuilder<Dim> loads(problem, bodies, model, errors);
+    for (const LoadInput& in : problem.loads) loads.add(in);
+  }
+  if (!errors.empty()) throw InputError(std::move(errors));
+  place_particles(bodies, model, out.state);
+  for (const auto& p : bodies.particles) out.original_volume.push_back(p.volume);
+  return out;
+}
+
+template BuiltModel<2> build_model<2>(const Problem&, int);
+template BuiltModel<3> build_model<3>(const Problem&, int);
+
+}  // namespace crampon

@@ -1,0 +1,264 @@
+#include "crampon/run/sample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <stdexcept>
+
+#include "crampon/step/move_cracks.hpp"
+
+namespace crampon {
+
+namespace {
+
+/// Slots of real particles in the order of their ids.
+template <int Dim>
+std::vector<std::size_t> slots_by_id(const State<Dim>& state) {
+  std::vector<std::size_t> slots;
+  slots.reserve(state.particle_count);
+  for (std::size_t p = 0; p < state.particles.size(); ++p) {
+    if (!state.particles.is_padding(p)) slots.push_back(p);
+  }
+  std::sort(slots.begin(), slots.end(), [&](std::size_t a, std::size_t b) { return state.particles.id[a] < state.particles.id[b]; });
+  return slots;
+}
+
+/// All that a quantity may be made from, for one particle.
+struct Sample {
+  Vec<3> x, X, v;
+  double stress[6];  ///< Cauchy, xx, yy, zz, xy, yz, xz
+  double strain[6];
+  double energy, volume, mass, volume_ratio;
+  int id, body, material;
+};
+
+struct Quantity {
+  const char* name;
+  const char* unit;
+  int components;
+  bool common;
+  std::function<void(const Sample&, double*)> get;
+};
+
+double mean_stress(const Sample& s) { return (s.stress[0] + s.stress[1] + s.stress[2]) / 3; }
+
+const std::vector<Quantity>& quantities() {
+  static const std::vector<Quantity> list = {
+      {"velocity", "m/s", 3, true, [](const Sample& s, double* o) { std::copy_n(s.v.c.data(), 3, o); }},
+      {"displacement", "m", 3, true,
+       [](const Sample& s, double* o) {
+         for (std::size_t k = 0; k < 3; ++k) o[k] = s.x[k] - s.X[k];
+       }},
+      {"stress", "Pa", 6, true, [](const Sample& s, double* o) { std::copy_n(s.stress, 6, o); }},
+      {"strain", "1", 6, false, [](const Sample& s, double* o) { std::copy_n(s.strain, 6, o); }},
+      {"pressure", "Pa", 1, false, [](const Sample& s, double* o) { *o = -mean_stress(s); }},
+      {"von_mises", "Pa", 1, false,
+       [](const Sample& s, double* o) {
+         const double m = mean_stress(s);
+         double square = 0;
+         for (int k = 0; k < 3; ++k) square += (s.stress[k] - m) * (s.stress[k] - m) + 2 * s.stress[3 + k] * s.stress[3 + k];
+         *o = std::sqrt(1.5 * square);
+       }},
+      {"energy_density", "J/m3", 1, false, [](const Sample& s, double* o) { *o = s.energy; }},
+      {"volume", "m3", 1, false, [](const Sample& s, double* o) { *o = s.volume * s.volume_ratio; }},
+      {"mass", "kg", 1, false, [](const Sample& s, double* o) { *o = s.mass; }},
+      {"density", "kg/m3", 1, false, [](const Sample& s, double* o) { *o = s.mass / (s.volume * s.volume_ratio); }},
+      {"material", "1", 1, false, [](const Sample& s, double* o) { *o = s.material; }},
+  };
+  return list;
+}
+
+template <int Dim>
+void fill_sample(const State<Dim>& state, std::size_t p, const PackReport& report, std::uint32_t material, Sample& s) {
+  const Particles<Dim>& particles = state.particles;
+  const auto l = p % lanes;
+  const Vec<Dim> x = particles.position(p), v = particles.velocity(p);
+  s.x = s.X = s.v = {};
+  for (std::size_t k = 0; k < Dim; ++k) s.x[k] = x[k], s.v[k] = v[k], s.X[k] = particles.original[p][k];
+  const Pack* stress = &particles.stress[p / lanes * stress_size<Dim>];
+  static constexpr int from_2d[6] = {0, 1, 3, 2, -1, -1};
+  for (int c = 0; c < 6; ++c) {
+    const int at = Dim == 2 ? from_2d[c] : c;
+    s.stress[c] = at < 0 ? 0. : stress[at][l] * report.to_cauchy[l];
+    s.strain[c] = report.strain[c][l];
+  }
+  s.energy = report.energy[l];
+  s.volume = particles.volume(p);
+  s.mass = particles.mass(p);
+  s.volume_ratio = report.volume_ratio[l];
+  s.id = static_cast<int>(particles.id[p]);
+  s.body = particles.body[p];
+  s.material = static_cast<int>(material);
+}
+
+class Hash {
+ public:
+  template <class T>
+  void add(const T& value) {
+    unsigned char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    for (const unsigned char b : bytes) h_ = (h_ ^ b) * 1099511628211ull;
+  }
+  std::uint64_t value() const { return h_; }
+
+ private:
+  std::uint64_t h_ = 14695981039346656037ull;
+};
+
+}  // namespace
+
+std::vector<std::string> particle_quantity_names() {
+  std::vector<std::string> names;
+  for (const Quantity& q : quantities()) names.emplace_back(q.name);
+  return names;
+}
+
+std::vector<std::string> common_quantity_names() {
+  std::vector<std::string> names;
+  for (const Quantity& q : quantities()) {
+    if (q.common) names.emplace_back(q.name);
+  }
+  return names;
+}
+
+template <int Dim>
+PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, const std::vector<std::string>& names) {
+  std::vector<const Quantity*> wanted;
+  for (const std::string& name : names.empty() ? common_quantity_names() : names) {
+    const auto at = std::find_if(quantities().begin(), quantities().end(), [&](const Quantity& q) { return name == q.name; });
+    if (at == quantities().end()) throw std::invalid_argument("there is no particle quantity \"" + name + "\"");
+    wanted.push_back(&*at);
+  }
+  const auto slots = slots_by_id(state);
+  PointFrame frame;
+  frame.time = state.time;
+  frame.step = state.step;
+  frame.dimension = Dim;
+  for (int k = 0; k < Dim; ++k) frame.cell = std::fmax(frame.cell, model.grid.cell[k]);
+  frame.positions.resize(slots.size() * 3);
+  frame.particle_size.resize(slots.size() * 3);
+  frame.fields.push_back({"id", "1", 1, std::vector<double>(slots.size())});
+  frame.fields.push_back({"body", "1", 1, std::vector<double>(slots.size())});
+  for (const Quantity* q : wanted) {
+    frame.fields.push_back({q->name, q->unit, q->components, std::vector<double>(slots.size() * static_cast<std::size_t>(q->components))});
+  }
+  std::vector<std::uint32_t> row(state.particles.size());
+  for (std::size_t i = 0; i < slots.size(); ++i) row[slots[i]] = static_cast<std::uint32_t>(i);
+  for (const Run& run : state.blocks.runs) {
+    const Material<Dim>& material = model.materials[run.material];
+    for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
+      const PackReport report = material.law->report(model.stress_state, Dim, &state.particles.stress[k * stress_size<Dim>],
+                                                     state.particles.history.data() + k * state.particles.history_size);
+      for (std::size_t p = k * lanes; p < (k + 1) * lanes; ++p) {
+        if (state.particles.is_padding(p)) continue;
+        Sample sample;
+        fill_sample(state, p, report, run.material, sample);
+        const std::size_t i = row[p];
+        for (std::size_t c = 0; c < 3; ++c) frame.positions[3 * i + c] = sample.x[c];
+        for (int c = 0; c < Dim; ++c) frame.particle_size[3 * i + c] = 2 * material.half_size[c] * model.grid.cell[c];
+        frame.fields[0].values[i] = sample.id;
+        frame.fields[1].values[i] = sample.body;
+        for (std::size_t q = 0; q < wanted.size(); ++q) {
+          wanted[q]->get(sample, &frame.fields[2 + q].values[i * static_cast<std::size_t>(wanted[q]->components)]);
+        }
+      }
+    }
+  }
+  return frame;
+}
+
+template <>
+CrackFrame sample_cracks<2>(const State<2>& state) {
+  CrackFrame frame;
+  frame.time = state.time;
+  frame.step = state.step;
+  Field opening{"opening", "m", 1, {}}, sliding{"sliding", "m", 1, {}};
+  for (const Crack<2>& crack : state.cracks.list) {
+    frame.names.push_back(crack.name);
+    for (std::size_t v = 0; v < crack.plane.size(); ++v) {
+      const auto put = [](std::vector<double>& out, const Vec<2>& x) { out.insert(out.end(), {x[0], x[1], 0.}); };
+      put(frame.plane, crack.plane[v]);
+      put(frame.upper, crack.upper[v]);
+      put(frame.lower, crack.lower[v]);
+      put(frame.original, crack.original[v]);
+      const CrackOpening o = opening_at(crack, v);
+      opening.values.push_back(o.opening);
+      sliding.values.push_back(o.sliding);
+    }
+    frame.begin.push_back(static_cast<std::int64_t>(frame.plane.size() / 3));
+  }
+  frame.fields = {opening, sliding};
+  return frame;
+}
+
+template <>
+CrackFrame sample_cracks<3>(const State<3>& state) {
+  CrackFrame frame;
+  frame.time = state.time;
+  frame.step = state.step;
+  return frame;
+}
+
+template <int Dim>
+PointFrame sample_nodes(const State<Dim>& state, const Model<Dim>& model) {
+  PointFrame frame;
+  frame.time = state.time;
+  frame.step = state.step;
+  frame.dimension = Dim;
+  for (int k = 0; k < Dim; ++k) frame.cell = std::fmax(frame.cell, model.grid.cell[k]);
+  Field field{"cracks_across", "1", 1, {}}, mass{"mass", "kg", 1, {}}, momentum{"momentum", "kg m/s", 3, {}}, force{"force", "N", 3, {}};
+  for (std::size_t b = 0; b < state.blocks.size() && state.step > 0; ++b) {
+    const BlockLayers<Dim>& layers = state.nodes.layers[b];
+    const auto first = state.blocks.list[b].first_node();
+    for (std::size_t l = 0; l < layers.node.size(); ++l) {
+      for (int n = 0; n < block_nodes<Dim>; ++n) {
+        const std::size_t i = (layers.node_begin + l) * block_nodes<Dim> + n;
+        const Pack p = state.nodes.momentum[i];
+        if (!(p[Dim] > 0)) continue;
+        IndexVector<Dim> node = unflatten<Dim>(n, block_side);
+        for (int k = 0; k < Dim; ++k) node[k] += first[k];
+        const Vec<Dim> x = model.grid.node_position(node);
+        field.values.push_back(layers.node[l].size());
+        mass.values.push_back(p[Dim]);
+        for (int k = 0; k < 3; ++k) {
+          frame.positions.push_back(k < Dim ? x[k % Dim] : 0.);
+          momentum.values.push_back(k < Dim ? p[k] : 0.);
+          force.values.push_back(k < Dim ? state.nodes.force[i][k % Dim] : 0.);
+        }
+      }
+    }
+  }
+  frame.fields = {field, mass, momentum, force};
+  return frame;
+}
+
+template <int Dim>
+std::uint64_t hash_state(const State<Dim>& state) {
+  Hash hash;
+  hash.add(state.time);
+  hash.add(state.step);
+  for (const std::size_t p : slots_by_id(state)) {
+    hash.add(state.particles.id[p]);
+    hash.add(state.particles.position(p).c);
+    hash.add(state.particles.velocity(p).c);
+    for (int c = 0; c < stress_size<Dim>; ++c) hash.add(state.particles.stress[p / lanes * stress_size<Dim> + c][p % lanes]);
+    for (int c = 0; c < state.particles.history_size; ++c) hash.add(state.particles.history[p / lanes * state.particles.history_size + c][p % lanes]);
+  }
+  for (const auto& crack : state.cracks.list) {
+    for (const auto* points : {&crack.plane, &crack.upper, &crack.lower}) {
+      for (const auto& x : *points) hash.add(x.c);
+    }
+  }
+  return hash.value();
+}
+
+#define CRAMPON_INSTANTIATE(DIM)                                                                                                \
+  template PointFrame sample_particles<DIM>(const State<DIM>&, const Model<DIM>&, const std::vector<std::string>&);              \
+  template PointFrame sample_nodes<DIM>(const State<DIM>&, const Model<DIM>&);                                                   \
+  template std::uint64_t hash_state<DIM>(const State<DIM>&);
+CRAMPON_INSTANTIATE(2)
+CRAMPON_INSTANTIATE(3)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

@@ -1,0 +1,28 @@
+#pragma once
+/// The engine's state as plain arrays for writers, pictures and checks.
+
+#include "crampon/output/frame.hpp"
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+std::vector<std::string> particle_quantity_names();
+std::vector<std::string> common_quantity_names();
+
+/// Particles in the order of their ids. Throws std::invalid_argument for a quantity that does not exist.
+template <int Dim>
+PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, const std::vector<std::string>& quantities);
+
+template <int Dim>
+CrackFrame sample_cracks(const State<Dim>& state);
+
+/// Every velocity field of every node with mass, as of the last step.
+template <int Dim>
+PointFrame sample_nodes(const State<Dim>& state, const Model<Dim>& model);
+
+/// FNV-1a over time, particles in the order of ids and crack vertices, to the last bit.
+template <int Dim>
+std::uint64_t hash_state(const State<Dim>& state);
+
+}  // namespace crampon

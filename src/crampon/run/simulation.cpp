@@ -1,0 +1,260 @@
+#include "crampon/run/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "crampon/core/error.hpp"
+#include "crampon/run/build_model.hpp"
+#include "crampon/run/sample.hpp"
+#include "crampon/shape/bspline.hpp"
+#include "crampon/shape/gimp.hpp"
+#include "crampon/shape/linear.hpp"
+#include "crampon/step/advance.hpp"
+#include "crampon/step/ledger.hpp"
+#include "crampon/step/move_cracks.hpp"
+
+namespace crampon {
+
+namespace {
+
+constexpr const char* axis_names[3] = {"x", "y", "z"};
+
+template <int Dim, class Shape>
+class Engine final : public Simulation {
+ public:
+  Engine(const Problem& problem, int threads) : time_(problem.time) {
+    BuiltModel<Dim> built = build_model<Dim>(problem, threads);
+    model_ = std::move(built.model);
+    state_ = std::move(built.state);
+    if (time_.end) end_ = *time_.end;
+    time_step_ = time_.step ? *time_.step : time_.courant * stable_time_step();
+    place_probes(problem);
+    initial_energy_ = energy();
+  }
+
+  void step(double longest) override {
+    if (!time_.step && watches_wave_speed_ && state_.step % 10 == 0 && state_.step > 0) time_step_ = time_.courant * stable_time_step();
+    double dt = time_step_;
+    const double left = std::fmin(longest, end_time_or_infinity()) - state_.time;
+    bool hits = false;
+    if (left <= dt * (1 + 1e-9)) {
+      dt = left;
+      hits = true;
+    } else if (!time_.step && left < 2 * dt) {
+      dt = 0.5 * left;  // no sliver of a step at the end
+    }
+    advance<Dim, Shape>(state_, model_, dt);
+    if (hits) state_.time = std::fmin(longest, end_time_or_infinity());  // to the bit
+  }
+
+  double time() const override { return state_.time; }
+  std::int64_t steps_done() const override { return state_.step; }
+  bool finished() const override {
+    return (time_.steps && state_.step >= *time_.steps) || (time_.end && state_.time >= *time_.end * (1 - 1e-14));
+  }
+  double end_time() const override { return time_.end ? end_ : static_cast<double>(*time_.steps) * time_step_; }
+
+  SimulationSize size() const override {
+    SimulationSize s;
+    s.particles = static_cast<std::int64_t>(state_.particle_count);
+    s.cells = 1;
+    for (int k = 0; k < Dim; ++k) s.cells *= model_.grid.cells[k];
+    s.active_cells = active_cells();
+    s.cracks = static_cast<std::int64_t>(state_.cracks.size());
+    for (const auto& c : state_.cracks.list) s.crack_segments += static_cast<std::int64_t>(c.facets.size());
+    s.time_step = time_step_;
+    s.steps = time_.steps ? *time_.steps : static_cast<std::int64_t>(std::ceil(end_ / time_step_ - 1e-9));
+    const double blocks = static_cast<double>(s.active_cells) / block_nodes<Dim>;
+    s.memory_bytes = static_cast<double>(state_.particles.bytes()) * 2 +  // twice while particles are re-ordered
+                     blocks * Tile<Dim, Shape>::nodes * (sizeof(Pack) + sizeof(NodalVector<Dim>)) +
+                     blocks * block_nodes<Dim> * (sizeof(Pack) + 2 * sizeof(NodalVector<Dim>) + sizeof(MotionRecord<Dim>)) +
+                     static_cast<double>(model_.grid.block_total()) * sizeof(std::uint32_t);
+    return s;
+  }
+
+  std::vector<std::string> particle_quantities() const override { return particle_quantity_names(); }
+  PointFrame particles(const std::vector<std::string>& names) const override { return sample_particles(state_, model_, names); }
+  CrackFrame cracks() const override { return sample_cracks(state_); }
+  PointFrame nodes() const override { return sample_nodes(state_, model_); }
+
+  std::vector<HistoryColumn> history_columns() const override {
+    std::vector<HistoryColumn> c = {{"time", "s"},          {"kinetic_energy", "J"},  {"strain_energy", "J"},   {"total_energy", "J"},
+                                    {"load_work", "J"},     {"body_force_work", "J"}, {"boundary_work", "J"},   {"damping_loss", "J"},
+                                    {"contact_loss", "J"},  {"energy_closure", "J"}};
+    for (int k = 0; k < Dim; ++k) c.push_back({std::string("momentum_") + axis_names[k], "kg m/s"});
+    c.push_back({"angular_momentum_z", "kg m2/s"});
+    for (const auto& condition : model_.conditions) {
+      for (int k = 0; k < Dim; ++k) c.push_back({std::string("reaction_") + axis_names[k] + "." + condition.name, "N"});
+    }
+    for (const auto& crack : state_.cracks.list) {
+      c.push_back({"opening_min." + crack.name, "m"});
+      c.push_back({"opening_max." + crack.name, "m"});
+      c.push_back({"sliding_max." + crack.name, "m"});
+    }
+    for (const Probe& probe : probes_) {
+      const PointFrame frame = sample_particles(state_, model_, {probe.quantity});
+      const Field& f = frame.fields.back();
+      for (int k = 0; k < f.components; ++k) c.push_back({probe.name + "." + f.name + suffix(f.components, k), f.unit});
+    }
+    return c;
+  }
+
+  std::vector<double> history_row() const override {
+    const auto sums = sum_particles(state_, model_);
+    const EnergyTotals& e = state_.energy;
+    const double total = sums.kinetic + sums.strain;
+    const double closure = total + e.damping + e.contact_loss - e.load_work - e.body_work - e.boundary_work - initial_energy_;
+    std::vector<double> row = {state_.time,     sums.kinetic, sums.strain,    total,  e.load_work, e.body_work,
+                               e.boundary_work, e.damping,    e.contact_loss, closure};
+    for (int k = 0; k < Dim; ++k) row.push_back(sums.momentum[k]);
+    row.push_back(sums.angular);
+    for (std::size_t c = 0; c < model_.conditions.size(); ++c) {
+      for (int k = 0; k < Dim; ++k) row.push_back(c < state_.reactions.size() ? state_.reactions[c][k] : 0.);
+    }
+    if constexpr (Dim == 2) {
+      for (const auto& crack : state_.cracks.list) add_openings(crack, row);
+    }
+    for (const Probe& probe : probes_) {
+      const PointFrame frame = sample_particles(state_, model_, {probe.quantity});
+      const auto& ids = frame.fields[0].values;
+      const auto at = std::lower_bound(ids.begin(), ids.end(), static_cast<double>(probe.particle));
+      const Field& f = frame.fields.back();
+      for (int k = 0; k < f.components; ++k) {
+        const bool there = at != ids.end() && *at == probe.particle;
+        row.push_back(there ? f.values[static_cast<std::size_t>(at - ids.begin()) * f.components + k] : std::numeric_limits<double>::quiet_NaN());
+      }
+    }
+    return row;
+  }
+
+  std::uint64_t state_hash() const override { return hash_state(state_); }
+  std::vector<PhaseTime> phases() const override {
+    std::vector<PhaseTime> out;
+    for (const Phase& p : state_.phases) out.push_back({p.name, p.seconds});
+    return out;
+  }
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> out;
+    if (state_.most_crowded_nodes > 0) out.push_back(fmt::format("up to {} nodes saw more than two cracks at once", state_.most_crowded_nodes));
+    if (state_.most_unsolved_nodes > 0) {
+      out.push_back(fmt::format("contact did not converge at up to {} nodes of a step; smaller cells where cracks meet usually help", state_.most_unsolved_nodes));
+    }
+    if (state_.removed > 0) out.push_back(fmt::format("{} particles left the grid and were removed", state_.removed));
+    return out;
+  }
+
+ private:
+  struct Probe {
+    std::string name, quantity;
+    std::uint32_t particle = 0;
+  };
+
+  double end_time_or_infinity() const { return time_.end ? end_ : std::numeric_limits<double>::infinity(); }
+
+  /// Smallest cell over fastest wave (kinematics.md 12); laws whose waves change with strain are asked for the present speed.
+  double stable_time_step() {
+    double fastest = 0;
+    watches_wave_speed_ = false;
+    for (const auto& m : model_.materials) {
+      fastest = std::fmax(fastest, m.law->wave_speed(model_.stress_state));
+      watches_wave_speed_ = watches_wave_speed_ || m.law->wave_speed_changes();
+    }
+    for (const Run& run : state_.blocks.runs) {
+      const MaterialLaw& law = *model_.materials[run.material].law;
+      if (!law.wave_speed_changes()) continue;
+      for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
+        const Pack c = law.wave_speed(model_.stress_state, Dim, &state_.particles.stress[k * stress_size<Dim>],
+                                      state_.particles.history.data() + k * state_.particles.history_size);
+        for (int l = 0; l < lanes; ++l) fastest = std::fmax(fastest, c[l]);
+      }
+    }
+    return model_.grid.smallest_cell() / fastest;
+  }
+
+  double energy() const {
+    const auto sums = sum_particles(state_, model_);
+    return sums.kinetic + sums.strain;
+  }
+
+  std::int64_t active_cells() const {
+    std::vector<std::int64_t> blocks;
+    for (std::size_t p = 0; p < state_.particles.size(); ++p) {
+      IndexVector<Dim> b{};
+      const Vec<Dim> x = state_.particles.position(p);
+      for (int k = 0; k < Dim; ++k) {
+        b[k] = Grid<Dim>::block_of(static_cast<int>(std::floor((x[k] - model_.grid.origin[k]) * model_.grid.inverse_cell[k] + Shape::bin_shift)));
+      }
+      blocks.push_back(model_.grid.block_number(b));
+    }
+    std::sort(blocks.begin(), blocks.end());
+    return (std::unique(blocks.begin(), blocks.end()) - blocks.begin()) * block_nodes<Dim>;
+  }
+
+  void place_probes(const Problem& problem) {
+    for (const ProbeInput& in : problem.probes) {
+      double best = std::numeric_limits<double>::infinity();
+      Probe probe{in.name, in.quantity, 0};
+      for (std::size_t p = 0; p < state_.particles.size(); ++p) {
+        if (state_.particles.is_padding(p)) continue;
+        if (!in.body.empty() && model_.bodies[state_.particles.body[p]] != in.body) continue;
+        Vec<Dim> d = state_.particles.position(p);
+        for (int k = 0; k < Dim; ++k) d[k] -= in.point[static_cast<std::size_t>(k)];
+        // Of particles equally near, the one made first.
+        const double distance = norm(d);
+        if (distance < best || (distance == best && state_.particles.id[p] < probe.particle)) best = distance, probe.particle = state_.particles.id[p];
+      }
+      probes_.push_back(probe);
+    }
+  }
+
+  static std::string suffix(int components, int k) {
+    static constexpr const char* tensor[6] = {"_xx", "_yy", "_zz", "_xy", "_yz", "_xz"};
+    if (components == 3) return std::string("_") + axis_names[k];
+    return components == 6 ? tensor[k] : "";
+  }
+
+  /// Over inner vertices, where both surfaces exist; over all when there are none.
+  void add_openings(const Crack<2>& crack, std::vector<double>& row) const {
+    const std::size_t n = crack.plane.size();
+    const std::size_t first = n > 2 && !crack.closed ? 1 : 0, end = n > 2 && !crack.closed ? n - 1 : n;
+    double low = std::numeric_limits<double>::infinity(), high = -low, slid = 0;
+    for (std::size_t v = first; v < end; ++v) {
+      const CrackOpening o = opening_at(crack, v);
+      low = std::fmin(low, o.opening);
+      high = std::fmax(high, o.opening);
+      slid = std::fmax(slid, std::fabs(o.sliding));
+    }
+    row.insert(row.end(), {low, high, slid});
+  }
+
+  TimeInput time_;
+  Model<Dim> model_;
+  State<Dim> state_;
+  double time_step_ = 0, end_ = 0, initial_energy_ = 0;
+  bool watches_wave_speed_ = false;
+  std::vector<Probe> probes_;
+};
+
+template <int Dim>
+std::unique_ptr<Simulation> create_in(const Problem& problem, int threads) {
+  switch (problem.method.shape_functions) {
+    case ShapeFunctionKind::linear:
+      return std::make_unique<Engine<Dim, LinearShape>>(problem, threads);
+    case ShapeFunctionKind::gimp:
+      return std::make_unique<Engine<Dim, GimpShape>>(problem, threads);
+    case ShapeFunctionKind::bspline:
+      return std::make_unique<Engine<Dim, BsplineShape>>(problem, threads);
+  }
+  throw std::logic_error("unknown shape functions");
+}
+
+}  // namespace
+
+std::unique_ptr<Simulation> Simulation::create(const Problem& problem, int threads) {
+  return problem.dimension() == 3 ? create_in<3>(problem, threads) : create_in<2>(problem, threads);
+}
+
+}  // namespace crampon

@@ -1,0 +1,293 @@
+#!/usr/bin/env python3
+"""The program from the outside: exit codes, messages, what is written and what is not.
+
+    cli_test.py PROGRAM [unittest options]
+"""
+import json
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = None
+
+SMALL = """
+title = "small block"
+[grid]
+origin = [0, 0]
+size = [8, 8]
+cell = 1
+[time]
+steps = 10
+step = 0.001
+[[material]]
+name = "soft"
+law = "elastic_small_strain"
+E = 100
+nu = 0.3
+density = 1
+[[body]]
+name = "block"
+material = "soft"
+shape = { kind = "rectangle", low = [3, 3], high = [5, 5] }
+velocity = [1, 0]
+[output]
+every_steps = 5
+history_steps = 1
+full_precision = true
+[[expect]]
+name = "momentum"
+column = "momentum_x"
+value = 4
+tolerance = 1e-12
+source = "mass 4 kg at 1 m/s"
+"""
+
+
+class CliTest(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self._folder.cleanup)
+        self.folder = pathlib.Path(self._folder.name)
+        (self.folder / "small.toml").write_text(SMALL)
+
+    def call(self, *arguments, code=0, **options):
+        """Runs the program in the test's folder; returns (stdout, stderr)."""
+        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300, **options)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}\n{done.stderr}")
+        return done.stdout, done.stderr
+
+    def files(self):
+        return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*") if path.is_file())
+
+    # --- help and misspellings
+
+    def test_help_and_version(self):
+        out, _ = self.call("--help")
+        for word in ("run", "validate", "init", "info", "draw", "check", "schema", "Examples:", "Exit codes"):
+            self.assertIn(word, out)
+        self.assertEqual(self.call("--version")[0].split()[0], "crampon")
+        self.assertIn("--set", self.call("run", "--help")[0])
+        self.assertIn("--help", self.call()[0])
+
+    def test_did_you_mean(self):
+        self.assertIn('did you mean "run"', self.call("rnu", "small.toml", code=2)[1])
+        self.assertIn('did you mean "validate"', self.call("valdate", code=2)[1])
+        self.assertIn("crampon run small.toml", self.call("small.toml", code=2)[1])
+        self.assertIn('did you mean "--threads"', self.call("run", "small.toml", "--thread", "2", code=2)[1])
+        self.assertIn('did you mean "crack"', self.call("init", "carck", code=2)[1])
+        self.assertIn("INPUT", self.call("run", code=2)[1].upper())
+        self.call("run", "small.toml", "--threads", "none", code=2)
+
+    # --- run
+
+    def test_run_writes_one_folder(self):
+        out, err = self.call("run", "small.toml", "--threads", "1")
+        self.assertIn("small.results", out)
+        self.assertNotIn("\x1b", out + err)  # no colours into a pipe
+        top = {path.split("/")[1] for path in self.files() if path.startswith("small.results/")}
+        self.assertEqual(top, {"particles.pvd", "particles", "history.csv", "input.resolved.toml", "input.original.toml", "run.json"})
+        self.assertEqual({path.split("/")[0] for path in self.files()}, {"small.toml", "small.results"})
+        self.assertEqual((self.folder / "small.results/input.original.toml").read_text(), SMALL)
+        record = json.loads((self.folder / "small.results/run.json").read_text())
+        self.assertEqual((record["status"], record["steps"], record["particles"], record["threads"]), ("finished", 10, 16, 1))
+        rows = (self.folder / "small.results/history.csv").read_text().splitlines()
+        self.assertEqual(len(rows), 12)  # header, start, ten steps
+        self.assertTrue(rows[0].startswith("time[s],"))
+
+    def test_existing_results_are_refused_and_forced(self):
+        self.call("run", "small.toml", "--quiet")
+        before = (self.folder / "small.results/run.json").read_text()
+        self.assertIn("--force", self.call("run", "small.toml", "--set", "time.steps=3", code=2)[1])
+        self.assertEqual((self.folder / "small.results/run.json").read_text(), before)
+        self.call("run", "small.toml", "--set", "time.steps=3", "--force")
+        self.assertEqual(json.loads((self.folder / "small.results/run.json").read_text())["steps"], 3)
+
+    def test_quiet_says_nothing(self):
+        self.assertEqual(self.call("run", "small.toml", "--quiet", "-o", "elsewhere/deep"), ("", ""))
+        self.assertTrue((self.folder / "elsewhere/deep/run.json").exists())
+
+    def test_set_changes_entries_one_at_a_time(self):
+        self.call("run", "small.toml", "-q", "--set", "time.steps=4", "--set", "body[0].velocity=[2, 0]", "-o", "out")
+        self.assertEqual(json.loads((self.folder / "out/run.json").read_text())["steps"], 4)
+        out, _ = self.call("check", "out", code=1)
+        self.assertIn("MISSED", out)
+        self.assertIn("8", out)  # the momentum with the doubled velocity
+
+    def test_resolved_input_gives_the_same_run(self):
+        self.call("run", "small.toml", "-q")
+        self.call("run", "small.results/input.resolved.toml", "-q", "-o", "again")
+        self.assertEqual(self.call("info", "small.results", "--hash"), self.call("info", "again", "--hash"))
+
+    def test_same_bits_for_any_number_of_threads(self):
+        hashes = set()
+        for threads in ("1", "2", "3"):
+            self.call("run", "small.toml", "-q", "-j", threads, "-o", "out" + threads)
+            hashes.add(self.call("info", "out" + threads, "--hash")[0])
+        self.assertEqual(len(hashes), 1)
+
+    # --- wrong inputs
+
+    def refused(self, text, *parts, arguments=()):
+        (self.folder / "wrong.toml").write_text(text)
+        before = self.files()
+        for subcommand in ("run", "validate"):
+            _, err = self.call(subcommand, "wrong.toml", *arguments, code=2)
+            for part in parts:
+                self.assertIn(part, err)
+        self.assertEqual(self.files(), before)  # nothing was written
+        return err
+
+    def test_all_errors_of_a_file_at_once_with_their_places(self):
+        text = SMALL.replace("nu = 0.3", "mu = 0.3").replace("density = 1", "density = -1").replace("cell = 1", 'cell = "1 kg"')
+        err = self.refused(text, "wrong.toml:6:", "wrong.toml:13:", "wrong.toml:14:", '"nu"')
+        self.assertIn("nothing was written", err)
+
+    def test_wrong_inputs(self):
+        self.refused("title = ", "wrong.toml:1:")
+        self.refused(SMALL.replace("high = [5, 5]", "high = [50, 5]"), "wrong.toml:")  # particles outside the grid
+        self.refused(SMALL.replace('"momentum_x"', '"momentum_xx"'), "wrong.toml:", 'did you mean "momentum_x"')
+        self.refused(SMALL + "quantity = 3\n", "wrong.toml:")
+        self.refused(SMALL.replace("every_steps = 5", "every = 1e-9"), "every_steps")
+        self.refused(SMALL, "time", arguments=("--set", "time.stepz=3"))
+
+    def test_missing_input(self):
+        _, err = self.call("run", "nowhere.toml", code=2)
+        self.assertIn("nowhere.toml", err)
+
+    # --- runs that do not end well
+
+    def test_a_stopped_run_keeps_its_good_frames(self):
+        # The block flies out of the grid after 3 of 20 s.
+        out, err = self.call("run", "small.toml", "--set", "time.steps=20000", code=3)
+        self.assertIn("stopped", err)
+        self.assertIn("particle", err)
+        record = json.loads((self.folder / "small.results/run.json").read_text())
+        self.assertTrue(record["status"].startswith("stopped: "))
+        self.call("draw", "small.results", "--quantity", "velocity", "--frame", "1")
+        self.call("info", "small.results")
+        self.assertIn("NOT REACHED", self.call("check", "small.results", code=1)[0])
+
+    def test_interrupt_ends_in_order(self):
+        settings = ["--set", "time.steps=1000000000", "--set", "body[0].velocity=[0, 0]", "--set", "output.every_steps=1000000"]
+        for number in (signal.SIGINT, signal.SIGTERM):
+            name = f"out{int(number)}"
+            process = subprocess.Popen([PROGRAM, "run", "small.toml", "-o", name, *settings], cwd=self.folder, stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE, text=True)
+            history = self.folder / name / "history.csv"
+            deadline = time.monotonic() + 60
+            while not (history.exists() and history.stat().st_size > 2000) and time.monotonic() < deadline:
+                time.sleep(0.01)
+            process.send_signal(number)
+            _, err = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 130, err)
+            record = json.loads((self.folder / name / "run.json").read_text())
+            self.assertEqual(record["status"], "interrupted")
+            self.assertIn(f"{record['end_time_s']:.4g}"[:3], err)
+            frames = sorted((self.folder / name / "particles").iterdir())
+            self.assertEqual(len(frames), 2)
+
+    def test_full_disk_is_a_system_error_without_half_files(self):
+        # Files may not grow beyond 3000 bytes: the history fails while the run goes on.
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+        _, err = self.call("run", "small.toml", "--set", "time.steps=1000", code=4, preexec_fn=limit)
+        self.assertIn("small.results", err)
+        self.assertIn("cannot write", err)
+        self.assertEqual([name for name in self.files() if name.endswith(".partial")], [])
+        rows = (self.folder / "small.results/history.csv").read_text()
+        self.assertTrue(rows.endswith("\n"))
+        self.assertTrue(json.loads((self.folder / "small.results/run.json").read_text())["status"].startswith("stopped: "))
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
+    def test_no_permission(self):
+        (self.folder / "locked").mkdir(mode=0o500)
+        self.assertIn("locked", self.call("run", "small.toml", "-o", "locked/out", code=4)[1])
+
+    # --- results
+
+    def test_check_info_draw(self):
+        self.call("run", "small.toml", "-q")
+        out, _ = self.call("check", "small.results")
+        self.assertIn("momentum", out)
+        self.assertIn("mass 4 kg", out)
+        out, _ = self.call("info", "small.results")
+        for word in ("small block", "finished", "16", "history.csv", "momentum_x", "time by phase"):
+            self.assertIn(word, out)
+        self.assertRegex(self.call("info", "small.results", "--hash")[0], r"^[0-9a-f]{16}\n$")
+        pictures = {
+            (): 1,
+            ("--quantity", "stress_xx", "--range", "-5 Pa", "5 Pa", "-o", "a.png"): 1,
+            ("--all", "--quantity", "velocity_x", "-o", "several"): 3,
+            ("--panel", "1x2", "--fringes", "-o", "b.png"): 1,
+            ("--time", "5 ms", "--magnify", "2", "--palette", "grey", "-o", "c.png"): 1,
+            ("--frame", "-1", "--window", "3", "5", "3", "5", "-o", "d.png"): 1,
+            ("--history", "kinetic_energy", "momentum_x", "-o", "plot.png"): 1,
+        }
+        for arguments, count in pictures.items():
+            out, _ = self.call("draw", "small.results", *arguments)
+            made = out.split()
+            self.assertEqual(len(made), count, arguments)
+            for file in made:
+                self.assertEqual((self.folder / file).read_bytes()[:4], b"\x89PNG", arguments)
+
+    def test_draw_says_what_is_wrong(self):
+        self.call("run", "small.toml", "-q")
+        self.assertIn('did you mean "velocity"', self.call("draw", "small.results", "--quantity", "velocty", code=2)[1])
+        self.assertIn('did you mean "momentum_x"', self.call("draw", "small.results", "--history", "momentum_xx", code=2)[1])
+        self.assertIn("3 frames", self.call("draw", "small.results", "--frame", "7", code=2)[1])
+        self.assertIn("2x3", self.call("draw", "small.results", "--panel", "two", code=2)[1])
+        self.call("draw", "small.results", "--time", "5 kg", code=2)
+        self.assertIn("nowhere", self.call("draw", "nowhere", code=4)[1])
+        self.assertIn("nowhere", self.call("check", "nowhere", code=4)[1])
+        self.assertIn("nowhere", self.call("info", "nowhere", code=4)[1])
+
+    def test_partial_check_of_a_shortened_run(self):
+        (self.folder / "small.toml").write_text(SMALL + "time = 0.01\n")
+        self.call("run", "small.toml", "-q", "--set", "time.steps=5")
+        self.call("check", "small.results", code=1)
+        self.call("check", "small.results", "--partial")
+
+    def test_damaged_results_are_told(self):
+        self.call("run", "small.toml", "-q")
+        frame = self.folder / "small.results/particles/particles_000002.vtp"
+        data = bytearray(frame.read_bytes())
+        data[len(data) // 2] ^= 1
+        frame.write_bytes(data)
+        self.assertIn("particles_000002.vtp", self.call("draw", "small.results", code=4)[1])
+
+    # --- templates, schema, reference
+
+    def test_init(self):
+        out, _ = self.call("init")
+        names = [line.split()[0] for line in out.splitlines() if line.startswith("  ")]
+        self.assertEqual(names, ["bar3d", "beam", "block", "collision", "crack"])
+        for name in names:
+            self.call("init", name)
+            self.assertIn("valid", self.call("validate", name + ".toml")[0])
+            self.assertEqual(self.call("init", name, "-o", "-")[0], (self.folder / (name + ".toml")).read_text())
+            self.call("run", name + ".toml", "-q", "--set", "time.end=\"2 us\"", "--set", "output.every=\"1 us\"")
+            self.call("check", name + ".results", "--partial")
+        self.assertIn("--force", self.call("init", "block", code=2)[1])
+        self.call("init", "block", "--force")
+
+    def test_schema_and_reference(self):
+        schema = json.loads(self.call("schema")[0])
+        self.assertIn("grid", schema["properties"])
+        self.assertIn("particles_per_cell", self.call("reference")[0])
+
+    def test_validate_tells_what_would_run(self):
+        before = self.files()
+        out, _ = self.call("validate", "small.toml")
+        for word in ("valid", "particles", "16", "steps", "10", "memory", "expected time"):
+            self.assertIn(word, out)
+        self.assertEqual(self.files(), before)
+
+
+if __name__ == "__main__":
+    PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()

@@ -1,0 +1,61 @@
+#pragma once
+/// Short runs for tests: an input as text, stepped in memory.
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "crampon/input/read_problem.hpp"
+#include "crampon/run/simulation.hpp"
+
+namespace crampon::test {
+
+inline std::unique_ptr<Simulation> make(const std::string& text, const std::vector<std::string>& overrides = {}, int threads = 1) {
+  return Simulation::create(read_problem_text(text, "test.toml", ".", overrides), threads);
+}
+
+/// Steps to the end; `each` sees the simulation after every step.
+inline void run(Simulation& simulation, const std::function<void(Simulation&)>& each = {}) {
+  while (!simulation.finished()) {
+    simulation.step(simulation.end_time());
+    if (each) each(simulation);
+  }
+}
+
+inline const Field& field(const PointFrame& frame, const std::string& name) {
+  for (const Field& f : frame.fields) {
+    if (f.name == name) return f;
+  }
+  throw std::runtime_error("no field " + name);
+}
+
+inline double largest(const std::vector<double>& values) {
+  double m = 0;
+  for (const double v : values) m = std::fmax(m, std::fabs(v));
+  return m;
+}
+
+/// Largest difference of two lists; infinite when their lengths differ or a number is bad.
+inline double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return HUGE_VAL;
+  double m = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double d = std::fabs(a[i] - b[i]);
+    if (!(d <= m)) m = std::isnan(d) ? HUGE_VAL : d;
+  }
+  return m;
+}
+
+/// A history value by name.
+inline double value(const Simulation& simulation, const std::string& name) {
+  const auto columns = simulation.history_columns();
+  const auto row = simulation.history_row();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].name == name) return row[i];
+  }
+  throw std::runtime_error("no column " + name);
+}
+
+}  // namespace crampon::test
