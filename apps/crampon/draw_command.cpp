@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <deque>
 #include <filesystem>
 
@@ -17,11 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "5 MPa" or "5e6" in SI.
+/// "5 MPa" in SI; a plain number is SI.
 double number(const std::string& text, const char* option, const char* unit) {
+  char* end = nullptr;
+  const double plain = std::strtod(text.c_str(), &end);
+  if (end != text.c_str() && *end == '\0' && std::isfinite(plain)) return plain;
   try {
     return parse_quantity(text, unit);
-  } catch (const UnitError& error) {
+  } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("{}: {}", option, error.what()));
   }
 }

@@ -30,7 +30,7 @@ def oracle_frames(case):
     def keep():
         particles = model.particles
         stress = [p.material.stress() for p in particles]
-        frame = {"position": [p.x for p in particles], "velocity": [p.v for p in particles],
+        frame = {"position": [p.x for p in particles], "velocity": [list(p.v) for p in particles],
                  "displacement": [[p.x[k] - p.X[k] for k in range(2)] for p in particles],
                  "stress": [[s[0], s[1], s[2], s[3]] for s in stress]}
         for name in ("plane", "upper", "lower"):

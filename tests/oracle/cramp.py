@@ -341,20 +341,21 @@ class Model:
                 total[k] += p[k]
         pending = []
         for crack in self.cracks:
-            if crack.fixed:
-                continue
             plane = self.fill([self.node_average(x, momentum, mass) for x in crack.plane])
             upper, lower = ([self.side_average(crack, k, x, up) or plane[k] for k, x in enumerate(points)]
                             for points, up in ((crack.upper, 1), (crack.lower, -1)))
             pending.append((crack, self.moved(crack.plane, plane), self.moved(crack.upper, upper), self.moved(crack.lower, lower)))
         for crack, plane, upper, lower in pending:
-            crack.plane, crack.upper, crack.lower = plane, upper, lower
+            crack.upper, crack.lower = upper, lower
+            if not crack.fixed:
+                crack.plane = plane
 
     def moved(self, points, velocities):
         return [(x[0] + self.dt * v[0], x[1] + self.dt * v[1]) for x, v in zip(points, velocities)]
 
     def shape_at(self, point):
-        return shape_2d(self.shape, point[0], point[1], self.grid, self.half_size)
+        """Crack vertices are points without a size: linear shape functions, whatever the particles have."""
+        return shape_2d("linear", point[0], point[1], self.grid, self.half_size)
 
     def node_average(self, point, momentum, mass):
         weight, v = 0.0, [0.0, 0.0]
@@ -376,7 +377,7 @@ class Model:
         length = math.hypot(*n)
         nudged = [point[c] - up * 1e-8 * self.grid.h * n[c] / length for c in range(2)]
         weight, v = 0.0, [0.0, 0.0]
-        for node, S, _ in self.shape_at(point):
+        for node, S, _ in self.shape_at(nudged):
             signature, _ = self.crossings(nudged, self.grid.position(node))
             target, R, _ = self.fold(nudged, node)
             key = (target, signature)

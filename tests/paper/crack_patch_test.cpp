@@ -18,6 +18,8 @@ struct PatchCase {
   double vertex_mm; ///< spacing of the crack's vertices
 };
 
+void PrintTo(const PatchCase& c, std::ostream* out) { *out << c.stress_update << ", " << c.shape_functions << ", tip at " << c.tip_mm << " mm"; }
+
 std::string name_of(const testing::TestParamInfo<PatchCase>& info) {
   const PatchCase& c = info.param;
   return fmt::format("{}_{}_tip{:.0f}_{}{}_{:.0f}", c.stress_update, c.shape_functions, 10 * c.tip_mm, c.from_right ? "right" : "left",
@@ -106,13 +108,13 @@ TEST_P(CrackPatch, FullModelEqualsHalfModel) {
   for (int step = 0; step < 200; ++step) {
     full->step(HUGE_VAL);
     half->step(HUGE_VAL);
-    if (step % 10 != 9 && step > 10) continue;  // errors do not heal: a difference at one step is there at the next
     const PointFrame a = full->particles(), b = half->particles();
     for (const char* name : {"displacement", "velocity", "stress"}) {
       const std::vector<double> expected = upper(c, half_start, field(b, name));
       const double scale = largest(expected);
-      ASSERT_GT(scale, 0) << name << " at step " << step;
-      worst = std::fmax(worst, difference(upper(c, full_start, field(a, name)), expected) / scale);
+      const double apart = difference(upper(c, full_start, field(a, name)), expected);
+      if (step > 0) ASSERT_GT(scale, 0) << name << " at step " << step;  // USF has no stress yet after its first step
+      worst = std::fmax(worst, scale > 0 ? apart / scale : apart);
     }
   }
   // Both do the same sums in another order: round-off, far below the 1e-10 that is asked for.

@@ -74,26 +74,31 @@ TEST(Units, AnyDimensionGoesToCoherentUnits) {
 }
 
 TEST(Units, EveryErrorNamesWhatIsExpected) {
-  EXPECT_EQ(message("5 mm", "Pa"), "\"5 mm\" has the wrong dimension (a pressure is expected here); write it in MPa or another unit of that dimension");
+  EXPECT_EQ(message("5 mm", "Pa"),
+            "\"5 mm\" has the wrong dimension (a pressure is expected here); write it in MPa or another unit of that dimension");
   EXPECT_EQ(message("5 MPa", "Pa*m^0.5"),
             "\"5 MPa\" has the wrong dimension (a toughness is expected here); write it in MPa*sqrt(m) or another unit of that dimension");
   EXPECT_EQ(message("5 MPa*sqrt(m)", "Pa"),
             "\"5 MPa*sqrt(m)\" has the wrong dimension (a pressure is expected here); write it in MPa or another unit of that dimension");
-  EXPECT_EQ(message("5 s", "1/s"), "\"5 s\" has the wrong dimension (a rate is expected here); write it in 1/s or another unit of that dimension");
+  EXPECT_EQ(message("5 s", "1/s"),
+            "\"5 s\" has the wrong dimension (a rate is expected here); write it in 1/s or another unit of that dimension");
   EXPECT_EQ(message("5 m", "1"), "\"5 m\" has the wrong dimension (a pure number is expected here); write the number alone");
-  EXPECT_EQ(message("5", "Pa"), "\"5\" has no unit (a pressure is expected here); add the unit, or write the number without quotes when it is in Pa");
-  EXPECT_EQ(message("5 foo", "m"), "\"5 foo\": unknown unit \"foo\" (a length is expected here); write it in mm or another unit of that dimension");
+  EXPECT_EQ(message("5", "Pa"),
+            "\"5\" has no unit (a pressure is expected here); add the unit, or write the number without quotes when it is in Pa");
+  EXPECT_EQ(message("5 foo", "m"),
+            "\"5 foo\": unknown unit \"foo\" (a length is expected here); write it in mm or another unit of that dimension");
   EXPECT_EQ(message("5 m since 2", "m"),
             "\"5 m since 2\": unknown unit \"m since 2\" (a length is expected here); write it in mm or another unit of that dimension");
   EXPECT_EQ(message("1,5 mm", "m"), "\"1,5 mm\" has a decimal comma (numbers are written with a point); write it as \"1.5 mm\"");
   for (const std::string text : {"", "  ", "abc", "nan m", "inf m", "-", "+", "mm 5"})
-    EXPECT_EQ(message(text, "m"), "\"" + text + "\" does not start with a number (a quantity is a number and a unit); write it as \"1.5 mm\"");
+    EXPECT_EQ(message(text, "m"),
+              "\"" + text + "\" does not start with a number (a quantity is a number and a unit); write it as \"1.5 mm\"");
   EXPECT_EQ(message("1e999 m", "m"), "\"1e999 m\": the number does not fit (numbers reach from 1e-307 to 1e308); write another number");
 }
 
 TEST(Units, HostileUnitsAreRefused) {
-  for (const std::string unit : {"sqrt(", "sqrt(((((", "m^", "m^0.3", "m^(1/0)", "m^(1/", "^0.5", "m^1e9", "sqrt(m))", "m/0.5^", "()^0.5", "sqrt()", "5^0.5",
-                                 "m @ 5", "lg(re 1 mW)", "m^0.5 @ 2"})
+  for (const std::string unit : {"sqrt(", "sqrt(((((", "m^", "m^0.3", "m^(1/0)", "m^(1/", "^0.5", "m^1e9", "sqrt(m))", "m/0.5^", "()^0.5",
+                                 "sqrt()", "5^0.5", "m @ 5", "lg(re 1 mW)", "m^0.5 @ 2"})
     EXPECT_THROW(parse_quantity("1 " + unit, "m"), UnitError) << unit;
   std::string deep = "1 ";
   for (int k = 0; k < 10000; ++k) deep += "sqrt(";

@@ -56,10 +56,12 @@ TEST_P(Impact, FrontAndPlateauOfTwoBars) {
     far.push_back(-value(s, "far.stress_xx"));
   });
   const double plateau = 39.62e6;
+  // A lumped-mass grid disperses the front into an Airy function's integral, which is 1/3 at x = c t.
+  const double level = plateau / 3;
   const auto arrival = [&](const std::vector<double>& s) {
     std::size_t i = 1;
-    while (i + 1 < s.size() && s[i] < plateau / 2) ++i;
-    return t[i - 1] + (plateau / 2 - s[i - 1]) / (s[i] - s[i - 1]) * (t[i] - t[i - 1]);
+    while (i + 1 < s.size() && s[i] < level) ++i;
+    return t[i - 1] + (level - s[i - 1]) / (s[i] - s[i - 1]) * (t[i] - t[i - 1]);
   };
   EXPECT_NEAR(0.3 / (arrival(far) - arrival(near)), steel_speed, 0.005 * steel_speed);  // the row's tolerance
   double mean = 0;
@@ -77,14 +79,14 @@ class Vibration : public testing::TestWithParam<std::tuple<const char*, const ch
 TEST_P(Vibration, FrequencyAndEnergyOfABar) {
   const auto [update, shape] = GetParam();
   const double L = 1, c = 100, omega = M_PI * c / (2 * L), period = 2 * M_PI / omega;
-  const auto simulation = make(fmt::format(R"(
+  const auto simulation = make(fmt::format(R"toml(
 [grid]
 origin = [-0.1, 0]
 size = [1.2, 0.1]
 cell = 0.025
 [time]
 end = {}
-courant = 0.4
+courant = 0.2  # USF knows strain half a step off: its energy swings by omega dt/2, 0.4 % here
 [method]
 stress_update = "{}"
 shape_functions = "{}"
@@ -107,7 +109,7 @@ at = 0
 name = "tip"
 quantity = "velocity"
 point = [1, 0.05]
-)",
+)toml",
                                           5 * period, update, shape));
   const double energy = value(*simulation, "total_energy");
   double low = energy, high = energy, last_t = 0, last_v = value(*simulation, "tip.velocity_x");

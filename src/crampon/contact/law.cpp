@@ -24,18 +24,18 @@ const Declaration<FrictionlessContact>& FrictionlessContact::declaration() {
 
 const Declaration<CoulombContact>& CoulombContact::declaration() {
   static const auto d = Declaration<CoulombContact>("coulomb", "Stick up to the friction limit, then slip against a constant ratio.")
-      .quantity("friction", &CoulombContact::friction, "1", Bounds::non_negative(),
-                "coefficient of friction: tangential over normal impulse at the onset of slip", Presence::required);
+                            .quantity("friction", &CoulombContact::friction, "1", Bounds::non_negative(),
+                                      "coefficient of friction: tangential over normal impulse at the onset of slip", Presence::required);
   return d;
 }
 
 const Family<ContactLawSpec>& contact_laws() {
   static const auto family = Family<ContactLawSpec>("contact law", "law", "What the faces of a crack do when they meet.")
-      .add(FrictionlessContact::declaration())
-      .add(NoContact::declaration())
-      .add(BondedContact::declaration())
-      .add(StickContact::declaration())
-      .add(CoulombContact::declaration());
+                                 .add(FrictionlessContact::declaration())
+                                 .add(NoContact::declaration())
+                                 .add(BondedContact::declaration())
+                                 .add(StickContact::declaration())
+                                 .add(CoulombContact::declaration());
   return family;
 }
 

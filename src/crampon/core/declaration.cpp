@@ -54,8 +54,10 @@ bool Entry::list() const {
     case Kind::texts:
     case Kind::functions:
     case Kind::records:
-    case Kind::one_of_list: return true;
-    default: return false;
+    case Kind::one_of_list:
+      return true;
+    default:
+      return false;
   }
 }
 

@@ -47,10 +47,9 @@ class Declaration : public Record {
     return plain<std::vector<double>>(Kind::quantities, std::move(key), m, std::move(help), presence, std::move(unit), bounds, length);
   }
   /// A list of points; `length` is that of each point.
-  Declaration& points(std::string key, std::vector<std::vector<double>> T::*m, std::string unit, std::string help,
-                      Presence presence = {}, Length length = Length::between(2, 3)) {
-    return plain<std::vector<std::vector<double>>>(Kind::points, std::move(key), m, std::move(help), presence, std::move(unit), {},
-                                                   length);
+  Declaration& points(std::string key, std::vector<std::vector<double>> T::*m, std::string unit, std::string help, Presence presence = {},
+                      Length length = Length::between(2, 3)) {
+    return plain<std::vector<std::vector<double>>>(Kind::points, std::move(key), m, std::move(help), presence, std::move(unit), {}, length);
   }
 
   Declaration& integer(std::string key, std::int64_t T::*m, Bounds bounds, std::string help, Presence presence = {}) {
@@ -113,8 +112,7 @@ class Declaration : public Record {
   Declaration& function(std::string key, ValueFunction T::*m, std::string unit, std::string help, Presence presence = {}) {
     return plain<ValueFunction>(Kind::function, std::move(key), m, std::move(help), presence, std::move(unit));
   }
-  Declaration& function(std::string key, std::optional<ValueFunction> T::*m, std::string unit, std::string help,
-                        Presence presence = {}) {
+  Declaration& function(std::string key, std::optional<ValueFunction> T::*m, std::string unit, std::string help, Presence presence = {}) {
     return plain<ValueFunction>(Kind::function, std::move(key), m, std::move(help), presence, std::move(unit));
   }
   Declaration& function(std::string key, std::vector<ValueFunction> T::*m, std::string unit, std::string help, Presence presence = {},
@@ -133,9 +131,8 @@ class Declaration : public Record {
     return add(std::move(e));
   }
   template <class Sub>
-  Declaration& record(std::string key, std::optional<Sub> T::*m,
-                      std::type_identity_t<std::function<const Declaration<Sub>&()>> declaration, std::string help,
-                      Presence presence = {}) {
+  Declaration& record(std::string key, std::optional<Sub> T::*m, std::type_identity_t<std::function<const Declaration<Sub>&()>> declaration,
+                      std::string help, Presence presence = {}) {
     Entry e = entry(Kind::record, std::move(key), std::move(help), presence);
     e.record = [declaration]() -> const Record& { return declaration(); };
     e.emplace = [m](void* o) -> void* { return &(of(o).*m).emplace(); };
@@ -147,9 +144,8 @@ class Declaration : public Record {
   }
   /// An array of tables: [[key]]. Required: at least one.
   template <class Sub>
-  Declaration& records(std::string key, std::vector<Sub> T::*m,
-                       std::type_identity_t<std::function<const Declaration<Sub>&()>> declaration, std::string help,
-                       Presence presence = {}) {
+  Declaration& records(std::string key, std::vector<Sub> T::*m, std::type_identity_t<std::function<const Declaration<Sub>&()>> declaration,
+                       std::string help, Presence presence = {}) {
     Entry e = entry(Kind::records, std::move(key), std::move(help), presence);
     e.record = [declaration]() -> const Record& { return declaration(); };
     e.emplace = [m](void* o) -> void* { return &(of(o).*m).emplace_back(); };
@@ -175,8 +171,8 @@ class Declaration : public Record {
   }
   /// The tag and the alternative's keys stand in this record's own table: law = "neo_hookean", E = "1 MPa".
   template <class R>
-  Declaration& inline_one_of(std::string tag_key, R T::*m, std::type_identity_t<std::function<const Family<R>&()>> family,
-                             std::string help, Presence presence = Presence::required) {
+  Declaration& inline_one_of(std::string tag_key, R T::*m, std::type_identity_t<std::function<const Family<R>&()>> family, std::string help,
+                             Presence presence = Presence::required) {
     return add(family_entry<R>(Kind::inline_one_of, std::move(tag_key), m, std::move(family), std::move(help), presence));
   }
 
@@ -291,13 +287,13 @@ template <class R>
 class Family : public AnyFamily {
  public:
   /// tag_key: the key that names the alternative ("law", "kind").
-  Family(std::string name, std::string tag_key, std::string help)
-      : AnyFamily(std::move(name), std::move(tag_key), std::move(help)) {}
+  Family(std::string name, std::string tag_key, std::string help) : AnyFamily(std::move(name), std::move(tag_key), std::move(help)) {}
 
   /// Adds an alternative under its declaration's name; the declaration must outlive the family. May be called at any time
   /// before an input is read. make may throw std::invalid_argument when the parameters do not fit together.
   template <class T>
-  Family& add(const Declaration<T>& declaration, std::type_identity_t<std::function<R(T)>> make = [](T t) { return R{std::move(t)}; }) {
+  Family& add(
+      const Declaration<T>& declaration, std::type_identity_t<std::function<R(T)>> make = [](T t) { return R{std::move(t)}; }) {
     Alternative a;
     a.record = &declaration;
     a.build = [make = std::move(make)](void* object) { return std::any(make(std::move(*static_cast<T*>(object)))); };

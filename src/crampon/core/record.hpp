@@ -33,10 +33,10 @@ struct Bounds {
   static Bounds at_least(double a) { return {.low = a}; }
   static Bounds below(double b) { return {.high = b, .high_open = true}; }
   static Bounds at_most(double b) { return {.high = b}; }
-  static Bounds between(double a, double b) { return {.low = a, .high = b}; }        ///< a <= x <= b
-  static Bounds inside(double a, double b) { return {a, b, true, true, false}; }            ///< a < x < b
-  static Bounds from_below(double a, double b) { return {a, b, false, true, false}; }       ///< a <= x < b
-  static Bounds from_above(double a, double b) { return {a, b, true, false, false}; }       ///< a < x <= b
+  static Bounds between(double a, double b) { return {.low = a, .high = b}; }          ///< a <= x <= b
+  static Bounds inside(double a, double b) { return {a, b, true, true, false}; }       ///< a < x < b
+  static Bounds from_below(double a, double b) { return {a, b, false, true, false}; }  ///< a <= x < b
+  static Bounds from_above(double a, double b) { return {a, b, true, false, false}; }  ///< a < x <= b
 
   bool contains(double x) const;
   /// "> 0", ">= 0 and < 0.5"; empty when there are none.
@@ -79,9 +79,8 @@ class Diagnostics {
 };
 
 /// A member's value on its way between file and struct, in SI. monostate: nothing given.
-using EntryValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
-                                std::vector<std::int64_t>, std::vector<std::string>, std::vector<std::vector<double>>,
-                                ValueFunction, std::vector<ValueFunction>>;
+using EntryValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::int64_t>,
+                                std::vector<std::string>, std::vector<std::vector<double>>, ValueFunction, std::vector<ValueFunction>>;
 
 class Record;
 class AnyFamily;
@@ -89,13 +88,26 @@ class AnyFamily;
 /// One key of a record. Which of the functions are set follows from the kind.
 struct Entry {
   enum class Kind {
-    quantity, quantities, points, integer, integers, flag, text, texts, choice, function, functions,  // plain: set, get
-    record, records,                      // sub-tables: record, emplace, parts
-    one_of, one_of_list, inline_one_of    // chosen by name: family, assign, parts
+    quantity,
+    quantities,
+    points,
+    integer,
+    integers,
+    flag,
+    text,
+    texts,
+    choice,
+    function,
+    functions,  // plain: set, get
+    record,
+    records,  // sub-tables: record, emplace, parts
+    one_of,
+    one_of_list,
+    inline_one_of  // chosen by name: family, assign, parts
   };
   std::string key;  ///< inline_one_of: the key that names the alternative
   Kind kind = Kind::quantity;
-  std::string unit;  ///< SI unit; "1" for a pure number; "any" when the dimension depends on what is compared
+  std::string unit;      ///< SI unit; "1" for a pure number; "any" when the dimension depends on what is compared
   std::string unit_key;  ///< a choice earlier in the record that decides the unit ...
   std::vector<std::pair<std::string, std::string>> units;  ///< ... by its word
   std::string help;
@@ -104,16 +116,16 @@ struct Entry {
   Length length;
   std::vector<std::string> choices;
   std::vector<std::string> excludes;  ///< keys of the record that contradict this one
-  bool file = false;  ///< text: the path of a file that must exist, relative to the input
-  bool name = false;  ///< text: unique among its siblings; left out: numbered, "crack1", "crack2"
+  bool file = false;                  ///< text: the path of a file that must exist, relative to the input
+  bool name = false;                  ///< text: unique among its siblings; left out: numbered, "crack1", "crack2"
 
   std::function<void(void* object, const EntryValue&)> set;
   std::function<EntryValue(const void* object)> get;
   std::function<const Record&()> record;
-  std::function<void*(void* object)> emplace;                          ///< makes the member's (next) sub-record, default constructed
-  std::function<std::vector<const void*>(const void* object)> parts;   ///< sub-records or family values that the member holds
+  std::function<void*(void* object)> emplace;                         ///< makes the member's (next) sub-record, default constructed
+  std::function<std::vector<const void*>(const void* object)> parts;  ///< sub-records or family values that the member holds
   std::function<const AnyFamily&()> family;
-  std::function<void(void* object, const std::any&)> assign;           ///< takes (or appends) what an alternative built
+  std::function<void(void* object, const std::any&)> assign;  ///< takes (or appends) what an alternative built
 
   bool plain() const { return kind < Kind::record; }
   bool list() const;

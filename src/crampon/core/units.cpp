@@ -23,14 +23,29 @@ struct Dimension {
 };
 // Coherent SI units with the name that error messages use. The first convertible one decides for "any".
 constexpr Dimension dimensions[] = {
-    {"1", "a pure number", "1"},        {"m", "a length", "mm"},           {"s", "a time", "ms"},
-    {"kg", "a mass", "g"},              {"m/s", "a velocity", "m/s"},      {"m/s2", "an acceleration", "m/s2"},
-    {"N", "a force", "N"},              {"Pa", "a pressure", "MPa"},       {"kg/m3", "a density", "kg/m3"},
-    {"1/s", "a rate", "1/s"},           {"rad", "an angle", "deg"},        {"rad/s", "an angular velocity", "rad/s"},
-    {"J", "an energy", "J"},            {"kg m/s", "a momentum", "kg m/s"}, {"J/m2", "an energy per area", "J/m2"},
-    {"m2", "an area", "mm2"},           {"m3", "a volume", "mm3"},         {"Pa*m^0.5", "a toughness", "MPa*sqrt(m)"},
-    {"Pa*s", "a viscosity", "Pa s"},    {"W", "a power", "W"},             {"Pa/m", "a stiffness per area", "MPa/mm"},
-    {"kg m2/s", "an angular momentum", "kg m2/s"}, {"K", "a temperature", "K"},
+    {"1", "a pure number", "1"},
+    {"m", "a length", "mm"},
+    {"s", "a time", "ms"},
+    {"kg", "a mass", "g"},
+    {"m/s", "a velocity", "m/s"},
+    {"m/s2", "an acceleration", "m/s2"},
+    {"N", "a force", "N"},
+    {"Pa", "a pressure", "MPa"},
+    {"kg/m3", "a density", "kg/m3"},
+    {"1/s", "a rate", "1/s"},
+    {"rad", "an angle", "deg"},
+    {"rad/s", "an angular velocity", "rad/s"},
+    {"J", "an energy", "J"},
+    {"kg m/s", "a momentum", "kg m/s"},
+    {"J/m2", "an energy per area", "J/m2"},
+    {"m2", "an area", "mm2"},
+    {"m3", "a volume", "mm3"},
+    {"Pa*m^0.5", "a toughness", "MPa*sqrt(m)"},
+    {"Pa*s", "a viscosity", "Pa s"},
+    {"W", "a power", "W"},
+    {"Pa/m", "a stiffness per area", "MPa/mm"},
+    {"kg m2/s", "an angular momentum", "kg m2/s"},
+    {"K", "a temperature", "K"},
 };
 
 const Dimension* find_dimension(const std::string& unit) {
@@ -77,9 +92,7 @@ ut_system* unit_system() {
   return system;
 }
 
-Unit parse_plain(const std::string& text) {
-  return Unit(ut_parse(unit_system(), text.c_str(), UT_UTF8));
-}
+Unit parse_plain(const std::string& text) { return Unit(ut_parse(unit_system(), text.c_str(), UT_UTF8)); }
 
 // The square of a unit expression, so that half powers stay within udunits2's integer exponents:
 // product := factor { ("*" | "/" | " " | ".") factor };  factor := (name | "(" product ")" | "sqrt(" product ")") [["^"] exponent]
@@ -211,8 +224,7 @@ Outcome find_conversion(const std::string& unit, const std::string& si_unit) {
   // ut_are_convertible also accepts reciprocals (s and Hz), which is no unit conversion of a quantity.
   const Unit ratio(ut_divide(from.get(), to.get()));
   const Unit one(ut_get_dimensionless_unit_one(unit_system()));
-  if (!ut_are_convertible(from.get(), to.get()) || !ratio || !ut_are_convertible(ratio.get(), one.get()))
-    return {Failure::dimension, {}};
+  if (!ut_are_convertible(from.get(), to.get()) || !ratio || !ut_are_convertible(ratio.get(), one.get())) return {Failure::dimension, {}};
   cv_converter* const converter = ut_get_converter(from.get(), to.get());
   if (!converter) return {Failure::dimension, {}};
   const double offset = cv_convert_double(converter, 0), scale = cv_convert_double(converter, 1) - offset;
@@ -283,14 +295,16 @@ double parse_quantity(const std::string& text, const std::string& si_unit) {
     throw UnitError(fmt::format("\"{}\" does not start with a number", shown(text)), "a quantity is a number and a unit",
                     fmt::format("write it as \"{}\"", example));
   if (parsed.ec == std::errc::result_out_of_range)
-    throw UnitError(fmt::format("\"{}\": the number does not fit", shown(text)), "numbers reach from 1e-307 to 1e308", "write another number");
+    throw UnitError(fmt::format("\"{}\": the number does not fit", shown(text)), "numbers reach from 1e-307 to 1e308",
+                    "write another number");
   const std::string number(first, parsed.ptr), unit = trimmed(std::string(parsed.ptr, t.data() + t.size()));
   if (unit.starts_with(','))
     throw UnitError(fmt::format("\"{}\" has a decimal comma", shown(text)), "numbers are written with a point",
                     fmt::format("write it as \"{}\"", example));
   if (unit.empty()) {
     if (si_unit == "1" || si_unit == "any") return value;
-    throw UnitError(fmt::format("\"{}\" has no unit", shown(text)), (d ? d->name : "a quantity in " + si_unit) + std::string(" is expected here"),
+    throw UnitError(fmt::format("\"{}\" has no unit", shown(text)),
+                    (d ? d->name : "a quantity in " + si_unit) + std::string(" is expected here"),
                     fmt::format("add the unit, or write the number without quotes when it is in {}", si_unit));
   }
   const Conversion c = conversion_to(shown(unit) == unit ? unit : shown(unit), si_unit, shown(text));

@@ -10,7 +10,9 @@ namespace crampon {
 class UnitError : public std::invalid_argument {
  public:
   UnitError(std::string what_, std::string why_, std::string remedy_)
-      : std::invalid_argument(what_ + " (" + why_ + "); " + remedy_), what(std::move(what_)), why(std::move(why_)),
+      : std::invalid_argument(what_ + " (" + why_ + "); " + remedy_),
+        what(std::move(what_)),
+        why(std::move(why_)),
         remedy(std::move(remedy_)) {}
   std::string what, why, remedy;
 };

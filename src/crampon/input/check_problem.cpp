@@ -96,7 +96,8 @@ class ProblemChecker {
     std::string out = "the grid reaches from (";
     for (std::size_t k = 0; k < dimension(); ++k) out += fmt::format("{}{:g}", k ? ", " : "", problem_.grid.origin[k]);
     out += ") to (";
-    for (std::size_t k = 0; k < dimension(); ++k) out += fmt::format("{}{:g}", k ? ", " : "", problem_.grid.origin[k] + problem_.grid.size[k]);
+    for (std::size_t k = 0; k < dimension(); ++k)
+      out += fmt::format("{}{:g}", k ? ", " : "", problem_.grid.origin[k] + problem_.grid.size[k]);
     return out + ") m";
   }
 
@@ -115,8 +116,7 @@ class ProblemChecker {
 
   void check_shape(const Located& record, const std::string& key, const ShapePtr& shape) {
     if (!shape || shape->dimension() == 0 || shape->dimension() == problem_.dimension()) return;
-    if (shape->dimension() == 3)
-      add(record, key, "a shape in space", words(), "use a plane shape");
+    if (shape->dimension() == 3) add(record, key, "a shape in space", words(), "use a plane shape");
   }
 
   void check_body(const BodyInput& body) {
@@ -129,8 +129,7 @@ class ProblemChecker {
     if (!body.spin.empty() && body.spin.size() != turns)
       add(body, "spin", fmt::format("{} values", body.spin.size()), words(), fmt::format("give {}", turns));
     if (body.particles_per_cell.size() > 1) check_length(body, "particles_per_cell", body.particles_per_cell.size());
-    if (dimension() == 3 && body.thickness != 1)
-      add(body, "thickness", "a body in space has no thickness", words(), "remove thickness");
+    if (dimension() == 3 && body.thickness != 1) add(body, "thickness", "a body in space has no thickness", words(), "remove thickness");
   }
 
   void check_crack(const CrackInput& crack) {
@@ -142,8 +141,9 @@ class ProblemChecker {
     if (!grid_known_) return;
     for (std::size_t k = 0; k < crack.points.size(); ++k)
       if (!in_grid(crack.points[k]))
-        add(crack, fmt::format("points[{}]", k), fmt::format("the point ({:g}, {:g}) m is outside the grid", crack.points[k][0], crack.points[k][1]),
-            grid_text(), "move the point or enlarge the grid");
+        add(crack, fmt::format("points[{}]", k),
+            fmt::format("the point ({:g}, {:g}) m is outside the grid", crack.points[k][0], crack.points[k][1]), grid_text(),
+            "move the point or enlarge the grid");
     if (crack.arc) check_arc(*crack.arc);
   }
 
@@ -179,7 +179,8 @@ class ProblemChecker {
     if (!grid_known_) return;
     const double lines = (symmetry.at - problem_.grid.origin[axis]) / cell(axis), last = problem_.grid.size[axis] / cell(axis);
     if (lines < -slack_cells || lines > last + slack_cells) {
-      add(symmetry, "at", fmt::format("the plane at {:g} m is outside the grid", symmetry.at), grid_text(), "move the plane or enlarge the grid");
+      add(symmetry, "at", fmt::format("the plane at {:g} m is outside the grid", symmetry.at), grid_text(),
+          "move the plane or enlarge the grid");
     } else if (std::abs(lines - std::round(lines)) > slack_cells) {
       add(symmetry, "at", fmt::format("the plane at {:.9g} m is on no grid line", symmetry.at), "a mirror plane is made of nodes",
           fmt::format("the nearest one is at {:.9g} m", problem_.grid.origin[axis] + std::round(lines) * cell(axis)));
@@ -196,7 +197,8 @@ class ProblemChecker {
     } else {
       check_length(load, "value", load.value.size());
     }
-    if (dimension() == 2 && load.face && load.face->front() == 'z') add(load, "face", "a face normal to z", words(), "choose a face normal to x or y");
+    if (dimension() == 2 && load.face && load.face->front() == 'z')
+      add(load, "face", "a face normal to z", words(), "choose a face normal to x or y");
   }
 
   void check_point(const Located& record, const std::vector<double>& point) {

@@ -42,7 +42,8 @@ class FunctionTableReader {
                       "write { expression = \"...\" }, { times = [...], values = [...] } or { file = \"...\" }");
     for (const char* key : {"unit", "scale"})
       if (inline_table && table_.contains(key))
-        complain(*table_.get(key), fmt::format("a table of values takes no {}", key), "its values carry their units", "write values = [\"1 mm\", ...]");
+        complain(*table_.get(key), fmt::format("a table of values takes no {}", key), "its values carry their units",
+                 "write values = [\"1 mm\", ...]");
     if (table_.contains("unit") && table_.contains("scale"))
       complain(*table_.get("scale"), "\"unit\" and \"scale\" are both given", "they contradict each other", "remove one of them");
     if (!good()) return std::nullopt;
@@ -77,8 +78,7 @@ class FunctionTableReader {
   }
   // What the values are multiplied by to be in SI, from "unit" or "scale"; nothing when it is wrong.
   std::optional<double> factor() {
-    if (table_.contains("scale"))
-      return value<double>(plain_entry(Entry::Kind::quantity, "scale", "1", "factor from the values to SI"));
+    if (table_.contains("scale")) return value<double>(plain_entry(Entry::Kind::quantity, "scale", "1", "factor from the values to SI"));
     if (!table_.contains("unit")) return 1.;
     const auto text = value<std::string>(plain_entry(Entry::Kind::text, "unit", "", "the unit of the values"));
     if (!text) return std::nullopt;

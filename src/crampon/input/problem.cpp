@@ -13,291 +13,328 @@ constexpr Presence required = Presence::required;
 const Length up_to_three = Length::between(1, 3), two_or_three = Length::between(2, 3);
 
 const Declaration<GridInput>& grid_declaration() {
-  static const auto d = Declaration<GridInput>("grid", "The background grid: a uniform Cartesian box that must hold all particles and cracks.")
-      .quantities("origin", &GridInput::origin, "m", Bounds::any(), "lowest corner, one coordinate per dimension", required, two_or_three)
-      .quantities("size", &GridInput::size, "m", Bounds::positive(), "extent along each axis; a whole number of cells", required, two_or_three)
-      .quantities("cell", &GridInput::cell, "m", Bounds::positive(), "cell size; one for all axes or one per axis", required, up_to_three);
+  static const auto d =
+      Declaration<GridInput>("grid", "The background grid: a uniform Cartesian box that must hold all particles and cracks.")
+          .quantities("origin", &GridInput::origin, "m", Bounds::any(), "lowest corner, one coordinate per dimension", required,
+                      two_or_three)
+          .quantities("size", &GridInput::size, "m", Bounds::positive(), "extent along each axis; a whole number of cells", required,
+                      two_or_three)
+          .quantities("cell", &GridInput::cell, "m", Bounds::positive(), "cell size; one for all axes or one per axis", required,
+                      up_to_three);
   return d;
 }
 
 const Declaration<TimeInput>& time_declaration() {
-  static const auto d = Declaration<TimeInput>("time", "How far to compute, and in what steps. Give exactly one of end and steps.")
-      .quantity("end", &TimeInput::end, "s", Bounds::positive(), "time at which the run ends")
-      .integer("steps", &TimeInput::steps, Bounds::at_least(1), "number of time steps after which the run ends")
-      .excludes({"end"})
-      .quantity("step", &TimeInput::step, "s", Bounds::positive(), "fixed time step; without it the step follows from courant")
-      .quantity("courant", &TimeInput::courant, "1", Bounds::from_above(0, 1),
-                "time step over the time a wave needs to cross a cell, the smallest over materials and axes")
-      .excludes({"step"})
-      .check([](const TimeInput& in, Diagnostics& diagnostics) {
-        if (!in.end && !in.steps) diagnostics.add("", "neither end nor steps is given", "the run would have no end", "add end or steps");
-        if (in.step && in.end && *in.step > *in.end)
-          diagnostics.add("step", "the time step is longer than the run", fmt::format("{} s > {} s", *in.step, *in.end), "reduce step");
-      });
+  static const auto d =
+      Declaration<TimeInput>("time", "How far to compute, and in what steps. Give exactly one of end and steps.")
+          .quantity("end", &TimeInput::end, "s", Bounds::positive(), "time at which the run ends")
+          .integer("steps", &TimeInput::steps, Bounds::at_least(1), "number of time steps after which the run ends")
+          .excludes({"end"})
+          .quantity("step", &TimeInput::step, "s", Bounds::positive(), "fixed time step; without it the step follows from courant")
+          .quantity("courant", &TimeInput::courant, "1", Bounds::from_above(0, 1),
+                    "time step over the time a wave needs to cross a cell, the smallest over materials and axes")
+          .excludes({"step"})
+          .check([](const TimeInput& in, Diagnostics& diagnostics) {
+            if (!in.end && !in.steps)
+              diagnostics.add("", "neither end nor steps is given", "the run would have no end", "add end or steps");
+            if (in.step && in.end && *in.step > *in.end)
+              diagnostics.add("step", "the time step is longer than the run", fmt::format("{} s > {} s", *in.step, *in.end), "reduce step");
+          });
   return d;
 }
 
 const Declaration<MethodInput>& method_declaration() {
-  static const auto d = Declaration<MethodInput>("method", "Choices of the algorithm.")
-      .choice("stress_update", &MethodInput::stress_update,
-              {{"usl", StressUpdate::usl}, {"musl", StressUpdate::musl}, {"usf", StressUpdate::usf}, {"usavg", StressUpdate::usavg}},
-              "when stress is updated: last, last after a second extrapolation, first, or half first and half last")
-      .choice("shape_functions", &MethodInput::shape_functions,
-              {{"linear", ShapeFunctionKind::linear}, {"gimp", ShapeFunctionKind::gimp}, {"bspline", ShapeFunctionKind::bspline}},
-              "bilinear (trilinear), uGIMP, or quadratic B-spline")
-      .function("damping", &MethodInput::damping, "1/s", "grid damping kappa (N03 Eq. 4); may vary in time")
-      .function("body_force", &MethodInput::body_force, "m/s2", "acceleration, one per dimension; may vary in time", Presence::optional,
-                two_or_three)
-      .choice("boundary_order", &MethodInput::boundary_order,
-              {{"contact_first", BoundaryOrder::contact_first}, {"boundary_first", BoundaryOrder::boundary_first}},
-              "contact before boundary conditions (N13) or after them (N03)")
-      .choice("fixed_force", &MethodInput::fixed_force,
-              {{"incremental", FixedForce::incremental}, {"n13", FixedForce::n13}, {"zero", FixedForce::zero}},
-              "force on fixed components: consistent increments, N13 Eq. 1, or none (N03)")
-      .choice("leaving_particle", &MethodInput::leaving_particle,
-              {{"error", LeavingParticle::error}, {"remove", LeavingParticle::remove}}, "what happens to a particle that leaves the grid")
-      .check([](const MethodInput& in, Diagnostics& diagnostics) {
-        if (in.damping.depends_on_position())
-          diagnostics.add("damping", "damping depends on the position", "it is the same everywhere", "use t alone");
-        for (std::size_t k = 0; k < in.body_force.size(); ++k)
-          if (in.body_force[k].depends_on_position())
-            diagnostics.add(fmt::format("body_force[{}]", k), "the body force depends on the position", "it is the same everywhere", "use t alone");
-      });
+  static const auto d =
+      Declaration<MethodInput>("method", "Choices of the algorithm.")
+          .choice("stress_update", &MethodInput::stress_update,
+                  {{"usl", StressUpdate::usl}, {"musl", StressUpdate::musl}, {"usf", StressUpdate::usf}, {"usavg", StressUpdate::usavg}},
+                  "when stress is updated: last, last after a second extrapolation, first, or half first and half last")
+          .choice("shape_functions", &MethodInput::shape_functions,
+                  {{"linear", ShapeFunctionKind::linear}, {"gimp", ShapeFunctionKind::gimp}, {"bspline", ShapeFunctionKind::bspline}},
+                  "bilinear (trilinear), uGIMP, or quadratic B-spline")
+          .function("damping", &MethodInput::damping, "1/s", "grid damping kappa (N03 Eq. 4); may vary in time")
+          .function("body_force", &MethodInput::body_force, "m/s2", "acceleration, one per dimension; may vary in time", Presence::optional,
+                    two_or_three)
+          .choice("boundary_order", &MethodInput::boundary_order,
+                  {{"contact_first", BoundaryOrder::contact_first}, {"boundary_first", BoundaryOrder::boundary_first}},
+                  "contact before boundary conditions (N13) or after them (N03)")
+          .choice("fixed_force", &MethodInput::fixed_force,
+                  {{"incremental", FixedForce::incremental}, {"n13", FixedForce::n13}, {"zero", FixedForce::zero}},
+                  "force on fixed components: consistent increments, N13 Eq. 1, or none (N03)")
+          .choice("leaving_particle", &MethodInput::leaving_particle,
+                  {{"error", LeavingParticle::error}, {"remove", LeavingParticle::remove}},
+                  "what happens to a particle that leaves the grid")
+          .check([](const MethodInput& in, Diagnostics& diagnostics) {
+            if (in.damping.depends_on_position())
+              diagnostics.add("damping", "damping depends on the position", "it is the same everywhere", "use t alone");
+            for (std::size_t k = 0; k < in.body_force.size(); ++k)
+              if (in.body_force[k].depends_on_position())
+                diagnostics.add(fmt::format("body_force[{}]", k), "the body force depends on the position", "it is the same everywhere",
+                                "use t alone");
+          });
   return d;
 }
 
 const Declaration<ContactInput>& contact_declaration() {
-  static const auto d = Declaration<ContactInput>("contact", "How contact across cracks is found and enforced.")
-      .choice("scheme", &ContactInput::scheme, {{"consistent", ContactScheme::consistent}, {"literal", ContactScheme::literal}},
-              "one state per node and pair carried through a step, or contact found anew each time as the papers write it")
-      .choice("detection", &ContactInput::detection,
-              {{"displacement", ContactDetection::displacement}, {"volume", ContactDetection::volume}},
-              "by the distance of the two faces, or by the relative volume at the node (N03)")
-      .choice("pairs", &ContactInput::pairs, {{"joint", ContactPairs::joint}, {"sequential", ContactPairs::sequential}},
-              "all pairs of fields at a node together, or one after another (N13)")
-      .quantity("volume_separated", &ContactInput::volume_separated, "1", Bounds::positive(),
-                "relative volume below which faces are apart (V_sep of N03)")
-      .quantity("volume_contact", &ContactInput::volume_contact, "1", Bounds::positive(),
-                "relative volume above which faces touch (V_contact of N03)")
-      .flag("require_approach", &ContactInput::require_approach, "contact needs approaching faces also above volume_contact (N13)")
-      .choice("reference_volume", &ContactInput::reference_volume, {{"cell", ReferenceVolume::cell}, {"initial", ReferenceVolume::initial}},
-              "undeformed volume at a node: the cell's, or that of the uncut bodies at the start")
-      .quantity("mass_screen", &ContactInput::mass_screen, "1", Bounds::from_below(0, 0.5),
-                "pairs in which one field has less than this fraction of the mass are left alone")
-      .check([](const ContactInput& in, Diagnostics& diagnostics) {
-        if (in.volume_separated > in.volume_contact)
-          diagnostics.add(in.keys.contains("volume_separated") ? "volume_separated" : "volume_contact",
-                          "volume_separated is above volume_contact", fmt::format("{} > {}", in.volume_separated, in.volume_contact),
-                          "faces that touch must be closer than faces that are apart");
-      });
+  static const auto d =
+      Declaration<ContactInput>("contact", "How contact across cracks is found and enforced.")
+          .choice("scheme", &ContactInput::scheme, {{"consistent", ContactScheme::consistent}, {"literal", ContactScheme::literal}},
+                  "one state per node and pair carried through a step, or contact found anew each time as the papers write it")
+          .choice("detection", &ContactInput::detection,
+                  {{"displacement", ContactDetection::displacement}, {"volume", ContactDetection::volume}},
+                  "by the distance of the two faces, or by the relative volume at the node (N03)")
+          .choice("pairs", &ContactInput::pairs, {{"joint", ContactPairs::joint}, {"sequential", ContactPairs::sequential}},
+                  "all pairs of fields at a node together, or one after another (N13)")
+          .quantity("volume_separated", &ContactInput::volume_separated, "1", Bounds::positive(),
+                    "relative volume below which faces are apart (V_sep of N03)")
+          .quantity("volume_contact", &ContactInput::volume_contact, "1", Bounds::positive(),
+                    "relative volume above which faces touch (V_contact of N03)")
+          .flag("require_approach", &ContactInput::require_approach, "contact needs approaching faces also above volume_contact (N13)")
+          .choice("reference_volume", &ContactInput::reference_volume,
+                  {{"cell", ReferenceVolume::cell}, {"initial", ReferenceVolume::initial}},
+                  "undeformed volume at a node: the cell's, or that of the uncut bodies at the start")
+          .quantity("mass_screen", &ContactInput::mass_screen, "1", Bounds::from_below(0, 0.5),
+                    "pairs in which one field has less than this fraction of the mass are left alone")
+          .check([](const ContactInput& in, Diagnostics& diagnostics) {
+            if (in.volume_separated > in.volume_contact)
+              diagnostics.add(in.keys.contains("volume_separated") ? "volume_separated" : "volume_contact",
+                              "volume_separated is above volume_contact", fmt::format("{} > {}", in.volume_separated, in.volume_contact),
+                              "faces that touch must be closer than faces that are apart");
+          });
   return d;
 }
 
 const Declaration<MaterialInput>& material_declaration() {
   static const auto d = Declaration<MaterialInput>("material", "A named constitutive law; its parameters stand beside the law.")
-      .name("name", &MaterialInput::name, "what bodies call it", required)
-      .inline_one_of("law", &MaterialInput::law, materials, "the constitutive law");
+                            .name("name", &MaterialInput::name, "what bodies call it", required)
+                            .inline_one_of("law", &MaterialInput::law, materials, "the constitutive law");
   return d;
 }
 
 const Declaration<BodyInput>& body_declaration() {
-  static const auto d = Declaration<BodyInput>("body", "A shape filled with particles, or particles from a file.")
-      .name("name", &BodyInput::name, "what loads, probes and output call it", required)
-      .text("material", &BodyInput::material, "name of a [[material]]", required)
-      .one_of("shape", &BodyInput::shape, shapes, "the space to fill with particles; either shape or particles")
-      .file("particles", &BodyInput::particles, "CSV file with the columns x, y[, z], volume[, vx, vy[, vz]] in SI, used exactly as written")
-      .excludes({"shape"})
-      .integers("particles_per_cell", &BodyInput::particles_per_cell, Bounds::between(1, 64),
-                "particles per cell in each direction; one for all axes or one per axis; also the size of uGIMP particles",
-                Presence::optional, up_to_three)
-      .flag("match_mass", &BodyInput::match_mass, "scale the particle masses so that the body has the mass of its shape")
-      .quantity("thickness", &BodyInput::thickness, "m", Bounds::positive(), "extent out of the plane (2D)")
-      .function("velocity", &BodyInput::velocity, "m/s", "initial velocity, one per dimension; may depend on x, y, z", Presence::optional,
-                two_or_three)
-      .quantities("spin", &BodyInput::spin, "rad/s", Bounds::any(), "initial angular velocity: one number in 2D, three in 3D",
-                  Presence::optional, up_to_three)
-      .quantities("spin_centre", &BodyInput::spin_centre, "m", Bounds::any(), "point the spin turns about; left out: the centre of mass",
-                  Presence::optional, two_or_three)
-      .check([](const BodyInput& in, Diagnostics& diagnostics) {
-        if (!in.shape && !in.particles)
-          diagnostics.add("", "neither shape nor particles is given", "the body would be empty", "add shape = { kind = ... }");
-        if (in.match_mass && in.particles)
-          diagnostics.add("match_mass", "match_mass needs a shape", "particles from a file are used exactly as written", "remove match_mass");
-        if (!in.spin_centre.empty() && in.spin.empty())
-          diagnostics.add("spin_centre", "spin_centre without spin", "there is nothing to turn", "add spin or remove spin_centre");
-        for (std::size_t k = 0; k < in.velocity.size(); ++k)
-          if (in.velocity[k].depends_on_time())
-            diagnostics.add(fmt::format("velocity[{}]", k), "the initial velocity depends on the time", "it holds at the start only",
-                            "use x, y and z; prescribe motion by a [[boundary]]");
-      });
+  static const auto d =
+      Declaration<BodyInput>("body", "A shape filled with particles, or particles from a file.")
+          .name("name", &BodyInput::name, "what loads, probes and output call it", required)
+          .text("material", &BodyInput::material, "name of a [[material]]", required)
+          .one_of("shape", &BodyInput::shape, shapes, "the space to fill with particles; either shape or particles")
+          .file("particles", &BodyInput::particles,
+                "CSV file with the columns x, y[, z], volume[, vx, vy[, vz]] in SI, used exactly as written")
+          .excludes({"shape"})
+          .integers("particles_per_cell", &BodyInput::particles_per_cell, Bounds::between(1, 64),
+                    "particles per cell in each direction; one for all axes or one per axis; also the size of uGIMP particles",
+                    Presence::optional, up_to_three)
+          .flag("match_mass", &BodyInput::match_mass, "scale the particle masses so that the body has the mass of its shape")
+          .quantity("thickness", &BodyInput::thickness, "m", Bounds::positive(), "extent out of the plane (2D)")
+          .function("velocity", &BodyInput::velocity, "m/s", "initial velocity, one per dimension; may depend on x, y, z",
+                    Presence::optional, two_or_three)
+          .quantities("spin", &BodyInput::spin, "rad/s", Bounds::any(), "initial angular velocity: one number in 2D, three in 3D",
+                      Presence::optional, up_to_three)
+          .quantities("spin_centre", &BodyInput::spin_centre, "m", Bounds::any(),
+                      "point the spin turns about; left out: the centre of mass", Presence::optional, two_or_three)
+          .check([](const BodyInput& in, Diagnostics& diagnostics) {
+            if (!in.shape && !in.particles)
+              diagnostics.add("", "neither shape nor particles is given", "the body would be empty", "add shape = { kind = ... }");
+            if (in.match_mass && in.particles)
+              diagnostics.add("match_mass", "match_mass needs a shape", "particles from a file are used exactly as written",
+                              "remove match_mass");
+            if (!in.spin_centre.empty() && in.spin.empty())
+              diagnostics.add("spin_centre", "spin_centre without spin", "there is nothing to turn", "add spin or remove spin_centre");
+            for (std::size_t k = 0; k < in.velocity.size(); ++k)
+              if (in.velocity[k].depends_on_time())
+                diagnostics.add(fmt::format("velocity[{}]", k), "the initial velocity depends on the time", "it holds at the start only",
+                                "use x, y and z; prescribe motion by a [[boundary]]");
+          });
   return d;
 }
 
 const Declaration<CrackInput::Arc>& arc_declaration() {
   using Arc = CrackInput::Arc;
-  static const auto d = Declaration<Arc>("arc", "Part of a circle.")
-      .quantities("centre", &Arc::centre, "m", Bounds::any(), "centre of the circle", required, Length::exactly(2))
-      .quantity("radius", &Arc::radius, "m", Bounds::positive(), "radius of the circle", required)
-      .quantity("from", &Arc::from, "rad", Bounds::any(), "angle of the first point, counter-clockwise from the x axis", required)
-      .quantity("to", &Arc::to, "rad", Bounds::any(), "angle of the last point; below from: the arc runs clockwise", required)
-      .integer("segments", &Arc::segments, Bounds::between(0, 1000000), "number of straight segments; 0: as many as max_segment asks for")
-      .check([](const Arc& in, Diagnostics& diagnostics) {
-        constexpr double full_turn = 6.283185307179586;
-        if (in.from == in.to) diagnostics.add("to", "from and to are the same angle", "the arc has no length", "change one of them");
-        if (std::abs(in.to - in.from) > full_turn * (1 + 1e-12))  // round-off of 360 deg
-          diagnostics.add("to", "the arc is longer than a full turn", "it would cross itself", "reduce the angle between from and to");
-      });
+  static const auto d =
+      Declaration<Arc>("arc", "Part of a circle.")
+          .quantities("centre", &Arc::centre, "m", Bounds::any(), "centre of the circle", required, Length::exactly(2))
+          .quantity("radius", &Arc::radius, "m", Bounds::positive(), "radius of the circle", required)
+          .quantity("from", &Arc::from, "rad", Bounds::any(), "angle of the first point, counter-clockwise from the x axis", required)
+          .quantity("to", &Arc::to, "rad", Bounds::any(), "angle of the last point; below from: the arc runs clockwise", required)
+          .integer("segments", &Arc::segments, Bounds::between(0, 1000000),
+                   "number of straight segments; 0: as many as max_segment asks for")
+          .check([](const Arc& in, Diagnostics& diagnostics) {
+            constexpr double full_turn = 6.283185307179586;
+            if (in.from == in.to) diagnostics.add("to", "from and to are the same angle", "the arc has no length", "change one of them");
+            if (std::abs(in.to - in.from) > full_turn * (1 + 1e-12))  // round-off of 360 deg
+              diagnostics.add("to", "the arc is longer than a full turn", "it would cross itself", "reduce the angle between from and to");
+          });
   return d;
 }
 
 const Declaration<CrackInput>& crack_declaration() {
-  static const auto d = Declaration<CrackInput>("crack", "A polyline, or an arc divided into segments (2D). Above is to the left of its direction.")
-      .name("name", &CrackInput::name, "what output calls it")
-      .points("points", &CrackInput::points, "m", "vertices in order, at least two; either points or arc", Presence::optional, Length::exactly(2))
-      .record("arc", &CrackInput::arc, arc_declaration, "an arc instead of points")
-      .excludes({"points"})
-      .quantity("max_segment", &CrackInput::max_segment, "m", Bounds::positive(),
-                "longer segments are divided evenly; left out: half a cell")
-      .flag("fixed", &CrackInput::fixed, "the crack stays where it is while the body moves")
-      .one_of("contact", &CrackInput::contact, contact_laws, "what its faces do when they meet")
-      .check([](const CrackInput& in, Diagnostics& diagnostics) {
-        if (in.points.empty() && !in.arc) diagnostics.add("", "neither points nor arc is given", "the crack has no place", "add points or arc");
-        if (in.points.size() == 1) diagnostics.add("points", "the crack has one point", "a crack needs at least two", "add a point");
-        for (std::size_t k = 1; k < in.points.size(); ++k)
-          if (in.points[k] == in.points[k - 1])
-            diagnostics.add(fmt::format("points[{}]", k), "the point is the same as the one before", "the segment has no length", "remove it");
-      });
+  static const auto d =
+      Declaration<CrackInput>("crack", "A polyline, or an arc divided into segments (2D). Above is to the left of its direction.")
+          .name("name", &CrackInput::name, "what output calls it")
+          .points("points", &CrackInput::points, "m", "vertices in order, at least two; either points or arc", Presence::optional,
+                  Length::exactly(2))
+          .record("arc", &CrackInput::arc, arc_declaration, "an arc instead of points")
+          .excludes({"points"})
+          .quantity("max_segment", &CrackInput::max_segment, "m", Bounds::positive(),
+                    "longer segments are divided evenly; left out: half a cell")
+          .flag("fixed", &CrackInput::fixed, "the crack stays where it is while the body moves")
+          .one_of("contact", &CrackInput::contact, contact_laws, "what its faces do when they meet")
+          .check([](const CrackInput& in, Diagnostics& diagnostics) {
+            if (in.points.empty() && !in.arc)
+              diagnostics.add("", "neither points nor arc is given", "the crack has no place", "add points or arc");
+            if (in.points.size() == 1) diagnostics.add("points", "the crack has one point", "a crack needs at least two", "add a point");
+            for (std::size_t k = 1; k < in.points.size(); ++k)
+              if (in.points[k] == in.points[k - 1])
+                diagnostics.add(fmt::format("points[{}]", k), "the point is the same as the one before", "the segment has no length",
+                                "remove it");
+          });
   return d;
 }
 
 const Declaration<BoundaryInput>& boundary_declaration() {
-  static const auto d = Declaration<BoundaryInput>("boundary", "Velocity prescribed on the grid nodes in a region; a component left out is free.")
-      .name("name", &BoundaryInput::name, "what the reaction columns call it")
-      .one_of("region", &BoundaryInput::region, shapes, "nodes in this region or on its edge", required)
-      .function("vx", &BoundaryInput::vx, "m/s", "x velocity")
-      .function("vy", &BoundaryInput::vy, "m/s", "y velocity")
-      .function("vz", &BoundaryInput::vz, "m/s", "z velocity (3D)")
-      .quantity("start", &BoundaryInput::start, "s", Bounds::any(), "from this time on")
-      .quantity("end", &BoundaryInput::end, "s", Bounds::any_or_infinite(), "until this time; inf: to the end of the run")
-      .check([](const BoundaryInput& in, Diagnostics& diagnostics) {
-        if (!in.vx && !in.vy && !in.vz)
-          diagnostics.add("", "no velocity is given", "the boundary would do nothing", "add vx, vy or vz");
-        if (!(in.end > in.start)) diagnostics.add("end", "end is not after start", fmt::format("{} s and {} s", in.start, in.end), "correct the times");
-      });
+  static const auto d =
+      Declaration<BoundaryInput>("boundary", "Velocity prescribed on the grid nodes in a region; a component left out is free.")
+          .name("name", &BoundaryInput::name, "what the reaction columns call it")
+          .one_of("region", &BoundaryInput::region, shapes, "nodes in this region or on its edge", required)
+          .function("vx", &BoundaryInput::vx, "m/s", "x velocity")
+          .function("vy", &BoundaryInput::vy, "m/s", "y velocity")
+          .function("vz", &BoundaryInput::vz, "m/s", "z velocity (3D)")
+          .quantity("start", &BoundaryInput::start, "s", Bounds::any(), "from this time on")
+          .quantity("end", &BoundaryInput::end, "s", Bounds::any_or_infinite(), "until this time; inf: to the end of the run")
+          .check([](const BoundaryInput& in, Diagnostics& diagnostics) {
+            if (!in.vx && !in.vy && !in.vz)
+              diagnostics.add("", "no velocity is given", "the boundary would do nothing", "add vx, vy or vz");
+            if (!(in.end > in.start))
+              diagnostics.add("end", "end is not after start", fmt::format("{} s and {} s", in.start, in.end), "correct the times");
+          });
   return d;
 }
 
 const Declaration<SymmetryInput>& symmetry_declaration() {
-  static const auto d = Declaration<SymmetryInput>("symmetry", "A mirror plane on a grid line: no motion through it, no shear on it.")
-      .name("name", &SymmetryInput::name, "what the reaction columns call it")
-      .choice("axis", &SymmetryInput::axis, {{"x", 0}, {"y", 1}, {"z", 2}}, "normal of the plane", required)
-      .quantity("at", &SymmetryInput::at, "m", Bounds::any(), "coordinate of the plane; on a grid line", required)
-      .choice("side", &SymmetryInput::side, {{"above", 1}, {"below", -1}}, "whether the body lies at larger or smaller coordinates")
-      .quantities("from", &SymmetryInput::from, "m", Bounds::any_or_infinite(),
-                  "lowest corner of the part that is a mirror, one coordinate per dimension (that of axis is ignored); -inf: unbounded",
-                  Presence::optional, two_or_three)
-      .quantities("to", &SymmetryInput::to, "m", Bounds::any_or_infinite(), "highest corner of that part; inf: unbounded",
-                  Presence::optional, two_or_three);
+  static const auto d =
+      Declaration<SymmetryInput>("symmetry", "A mirror plane on a grid line: no motion through it, no shear on it.")
+          .name("name", &SymmetryInput::name, "what the reaction columns call it")
+          .choice("axis", &SymmetryInput::axis, {{"x", 0}, {"y", 1}, {"z", 2}}, "normal of the plane", required)
+          .quantity("at", &SymmetryInput::at, "m", Bounds::any(), "coordinate of the plane; on a grid line", required)
+          .choice("side", &SymmetryInput::side, {{"above", 1}, {"below", -1}}, "whether the body lies at larger or smaller coordinates")
+          .quantities("from", &SymmetryInput::from, "m", Bounds::any_or_infinite(),
+                      "lowest corner of the part that is a mirror, one coordinate per dimension (that of axis is ignored); -inf: unbounded",
+                      Presence::optional, two_or_three)
+          .quantities("to", &SymmetryInput::to, "m", Bounds::any_or_infinite(), "highest corner of that part; inf: unbounded",
+                      Presence::optional, two_or_three);
   return d;
 }
 
 const Declaration<LoadInput>& load_declaration() {
   using Kind = LoadInput::Kind;
-  static const auto d = Declaration<LoadInput>("load", "Forces on particles.")
-      .name("name", &LoadInput::name, "what output calls it")
-      .choice("kind", &LoadInput::kind,
-              {{"total_force", Kind::total_force}, {"force_each", Kind::force_each}, {"traction", Kind::traction}, {"pressure", Kind::pressure}},
-              "a force shared by the particles, a force on each of them, or stress on a face", required)
-      .text("body", &LoadInput::body, "only particles of this body; empty: all")
-      .one_of("region", &LoadInput::region, shapes, "only particles that start in this region")
-      .function("value", &LoadInput::value, "N", "one per dimension; pressure: one; may vary in time", required, up_to_three)
-      .unit_by("kind", {{"total_force", "N"}, {"force_each", "N"}, {"traction", "Pa"}, {"pressure", "Pa"}})
-      .choice("face", &LoadInput::face, {{"x-", "x-"}, {"x+", "x+"}, {"y-", "y-"}, {"y+", "y+"}, {"z-", "z-"}, {"z+", "z+"}},
-              "traction and pressure: the side of the body's cells that is loaded")
-      .check([](const LoadInput& in, Diagnostics& diagnostics) {
-        const bool on_face = in.kind == Kind::traction || in.kind == Kind::pressure;
-        if (on_face && !in.face) diagnostics.add("", "the key \"face\" is missing", "traction and pressure act on a face", "add face = \"x+\"");
-        if (!on_face && in.face)
-          diagnostics.add("face", "face is given for a force", "forces act on particles, not on a face", "remove face, or use traction");
-        for (std::size_t k = 0; k < in.value.size(); ++k)
-          if (in.value[k].depends_on_position())
-            diagnostics.add(fmt::format("value[{}]", k), "the load depends on the position", "it may vary in time only", "use t alone");
-      });
+  static const auto d =
+      Declaration<LoadInput>("load", "Forces on particles.")
+          .name("name", &LoadInput::name, "what output calls it")
+          .choice("kind", &LoadInput::kind,
+                  {{"total_force", Kind::total_force},
+                   {"force_each", Kind::force_each},
+                   {"traction", Kind::traction},
+                   {"pressure", Kind::pressure}},
+                  "a force shared by the particles, a force on each of them, or stress on a face", required)
+          .text("body", &LoadInput::body, "only particles of this body; empty: all")
+          .one_of("region", &LoadInput::region, shapes, "only particles that start in this region")
+          .function("value", &LoadInput::value, "N", "one per dimension; pressure: one; may vary in time", required, up_to_three)
+          .unit_by("kind", {{"total_force", "N"}, {"force_each", "N"}, {"traction", "Pa"}, {"pressure", "Pa"}})
+          .choice("face", &LoadInput::face, {{"x-", "x-"}, {"x+", "x+"}, {"y-", "y-"}, {"y+", "y+"}, {"z-", "z-"}, {"z+", "z+"}},
+                  "traction and pressure: the side of the body's cells that is loaded")
+          .check([](const LoadInput& in, Diagnostics& diagnostics) {
+            const bool on_face = in.kind == Kind::traction || in.kind == Kind::pressure;
+            if (on_face && !in.face)
+              diagnostics.add("", "the key \"face\" is missing", "traction and pressure act on a face", "add face = \"x+\"");
+            if (!on_face && in.face)
+              diagnostics.add("face", "face is given for a force", "forces act on particles, not on a face",
+                              "remove face, or use traction");
+            for (std::size_t k = 0; k < in.value.size(); ++k)
+              if (in.value[k].depends_on_position())
+                diagnostics.add(fmt::format("value[{}]", k), "the load depends on the position", "it may vary in time only", "use t alone");
+          });
   return d;
 }
 
 const Declaration<ProbeInput>& probe_declaration() {
-  static const auto d = Declaration<ProbeInput>("probe", "History columns of the particle that is nearest to a point at the start.")
-      .name("name", &ProbeInput::name, "what the columns are called")
-      .text("quantity", &ProbeInput::quantity, "particle quantity, as in the output", required)
-      .quantities("point", &ProbeInput::point, "m", Bounds::any(), "where the particle is sought", required, two_or_three)
-      .text("body", &ProbeInput::body, "only particles of this body; empty: all");
+  static const auto d =
+      Declaration<ProbeInput>("probe", "History columns of the particle that is nearest to a point at the start.")
+          .name("name", &ProbeInput::name, "what the columns are called")
+          .text("quantity", &ProbeInput::quantity, "particle quantity, as in the output", required)
+          .quantities("point", &ProbeInput::point, "m", Bounds::any(), "where the particle is sought", required, two_or_three)
+          .text("body", &ProbeInput::body, "only particles of this body; empty: all");
   return d;
 }
 
 const Declaration<OutputInput>& output_declaration() {
   static const auto d = Declaration<OutputInput>("output", "What is written, and when. The first and the last state always are.")
-      .quantity("every", &OutputInput::every, "s", Bounds::positive(), "time between frames")
-      .integer("every_steps", &OutputInput::every_steps, Bounds::at_least(1), "steps between frames")
-      .excludes({"every"})
-      .quantities("times", &OutputInput::times, "s", Bounds::non_negative(), "times of further frames, hit exactly")
-      .quantity("history_every", &OutputInput::history_every, "s", Bounds::positive(), "time between history rows; left out: at most 1000 rows")
-      .integer("history_steps", &OutputInput::history_steps, Bounds::at_least(1), "steps between history rows")
-      .excludes({"history_every"})
-      .text("quantities", &OutputInput::quantities, "particle quantities to write; left out: the common ones")
-      .flag("full_precision", &OutputInput::full_precision, "64-bit instead of 32-bit numbers")
-      .flag("grid", &OutputInput::grid, "also write the nodes with mass, momentum and force of each velocity field")
-      .check([](const OutputInput& in, Diagnostics& diagnostics) {
-        for (std::size_t k = 1; k < in.times.size(); ++k)
-          if (!(in.times[k] > in.times[k - 1]))
-            diagnostics.add(fmt::format("times[{}]", k), "the times do not increase", fmt::format("{} s after {} s", in.times[k], in.times[k - 1]),
-                            "sort them");
-      });
+                            .quantity("every", &OutputInput::every, "s", Bounds::positive(), "time between frames")
+                            .integer("every_steps", &OutputInput::every_steps, Bounds::at_least(1), "steps between frames")
+                            .excludes({"every"})
+                            .quantities("times", &OutputInput::times, "s", Bounds::non_negative(), "times of further frames, hit exactly")
+                            .quantity("history_every", &OutputInput::history_every, "s", Bounds::positive(),
+                                      "time between history rows; left out: at most 1000 rows")
+                            .integer("history_steps", &OutputInput::history_steps, Bounds::at_least(1), "steps between history rows")
+                            .excludes({"history_every"})
+                            .text("quantities", &OutputInput::quantities, "particle quantities to write; left out: the common ones")
+                            .flag("full_precision", &OutputInput::full_precision, "64-bit instead of 32-bit numbers")
+                            .flag("grid", &OutputInput::grid, "also write the nodes with mass, momentum and force of each velocity field")
+                            .check([](const OutputInput& in, Diagnostics& diagnostics) {
+                              for (std::size_t k = 1; k < in.times.size(); ++k)
+                                if (!(in.times[k] > in.times[k - 1]))
+                                  diagnostics.add(fmt::format("times[{}]", k), "the times do not increase",
+                                                  fmt::format("{} s after {} s", in.times[k], in.times[k - 1]), "sort them");
+                            });
   return d;
 }
 
 const Declaration<ExpectInput>& expect_declaration() {
   using Statistic = ExpectInput::Statistic;
-  static const auto d = Declaration<ExpectInput>("expect", "A number that the run must reproduce; crampon check compares.")
-      .name("name", &ExpectInput::name, "what the table calls it")
-      .text("column", &ExpectInput::column, "column of history.csv without its unit; either column or quantity")
-      .text("quantity", &ExpectInput::quantity, "particle quantity at point, in the last frame or the one nearest to time")
-      .excludes({"column"})
-      .quantities("point", &ExpectInput::point, "m", Bounds::any(), "quantity: where", Presence::optional, two_or_three)
-      .quantity("time", &ExpectInput::time, "s", Bounds::non_negative(), "when; left out: at the end")
-      .quantities("range", &ExpectInput::range, "s", Bounds::non_negative(), "from and to: a statistic over this time", Presence::optional,
-                  Length::exactly(2))
-      .excludes({"time"})
-      .choice("statistic", &ExpectInput::statistic,
-              {{"value", Statistic::value}, {"minimum", Statistic::minimum}, {"maximum", Statistic::maximum}, {"mean", Statistic::mean},
-               {"spread", Statistic::spread}},
-              "what is compared; spread: largest minus smallest")
-      .quantity("value", &ExpectInput::value, "any", Bounds::any(), "the expected number", required)
-      .quantity("tolerance", &ExpectInput::tolerance, "any", Bounds::non_negative(), "allowed difference")
-      .quantity("relative", &ExpectInput::relative, "1", Bounds::non_negative(), "allowed difference as a fraction of value")
-      .excludes({"tolerance"})
-      .text("unit", &ExpectInput::unit, "unit in the printed table; value and tolerance stay in SI")
-      .text("source", &ExpectInput::source, "where the number comes from")
-      .check([](const ExpectInput& in, Diagnostics& diagnostics) {
-        if (!in.column && !in.quantity)
-          diagnostics.add("", "neither column nor quantity is given", "there is nothing to compare", "add column = \"...\"");
-        if (in.quantity && in.point.empty())
-          diagnostics.add("quantity", "the key \"point\" is missing", "a quantity is compared at a point", "add point = [...]");
-        if (in.column && !in.point.empty())
-          diagnostics.add("point", "point is given for a column", "a column has no place", "remove point, or use quantity");
-        if (in.quantity && !in.range.empty())
-          diagnostics.add("range", "range is given for a quantity", "it is compared in one frame", "use time, or a [[probe]] and its column");
-        if (in.range.size() == 2 && !(in.range[1] > in.range[0]))
-          diagnostics.add("range", "the range does not end after it begins", fmt::format("{} s to {} s", in.range[0], in.range[1]), "swap the times");
-        if (!in.range.empty() && in.statistic == Statistic::value)
-          diagnostics.add("range", "range needs a statistic", "over a time there is more than one value", "add statistic = \"mean\"");
-        if (in.statistic != Statistic::value && (in.time || in.quantity))
-          diagnostics.add("statistic", "a statistic of one number", "it is taken over the range of a column", "remove statistic");
-        if (!in.keys.contains("tolerance") && !in.relative)
-          diagnostics.add("", "neither tolerance nor relative is given", "no computed number is exact", "add one of them");
-        if (in.relative && in.value == 0)
-          diagnostics.add("relative", "relative to a value of zero", "nothing but zero would pass", "use tolerance");
-      });
+  static const auto d =
+      Declaration<ExpectInput>("expect", "A number that the run must reproduce; crampon check compares.")
+          .name("name", &ExpectInput::name, "what the table calls it")
+          .text("column", &ExpectInput::column, "column of history.csv without its unit; either column or quantity")
+          .text("quantity", &ExpectInput::quantity, "particle quantity at point, in the last frame or the one nearest to time")
+          .excludes({"column"})
+          .quantities("point", &ExpectInput::point, "m", Bounds::any(), "quantity: where", Presence::optional, two_or_three)
+          .quantity("time", &ExpectInput::time, "s", Bounds::non_negative(), "when; left out: at the end")
+          .quantities("range", &ExpectInput::range, "s", Bounds::non_negative(), "from and to: a statistic over this time",
+                      Presence::optional, Length::exactly(2))
+          .excludes({"time"})
+          .choice("statistic", &ExpectInput::statistic,
+                  {{"value", Statistic::value},
+                   {"minimum", Statistic::minimum},
+                   {"maximum", Statistic::maximum},
+                   {"mean", Statistic::mean},
+                   {"spread", Statistic::spread}},
+                  "what is compared; spread: largest minus smallest")
+          .quantity("value", &ExpectInput::value, "any", Bounds::any(), "the expected number", required)
+          .quantity("tolerance", &ExpectInput::tolerance, "any", Bounds::non_negative(), "allowed difference")
+          .quantity("relative", &ExpectInput::relative, "1", Bounds::non_negative(), "allowed difference as a fraction of value")
+          .excludes({"tolerance"})
+          .text("unit", &ExpectInput::unit, "unit in the printed table; value and tolerance stay in SI")
+          .text("source", &ExpectInput::source, "where the number comes from")
+          .check([](const ExpectInput& in, Diagnostics& diagnostics) {
+            if (!in.column && !in.quantity)
+              diagnostics.add("", "neither column nor quantity is given", "there is nothing to compare", "add column = \"...\"");
+            if (in.quantity && in.point.empty())
+              diagnostics.add("quantity", "the key \"point\" is missing", "a quantity is compared at a point", "add point = [...]");
+            if (in.column && !in.point.empty())
+              diagnostics.add("point", "point is given for a column", "a column has no place", "remove point, or use quantity");
+            if (in.quantity && !in.range.empty())
+              diagnostics.add("range", "range is given for a quantity", "it is compared in one frame",
+                              "use time, or a [[probe]] and its column");
+            if (in.range.size() == 2 && !(in.range[1] > in.range[0]))
+              diagnostics.add("range", "the range does not end after it begins", fmt::format("{} s to {} s", in.range[0], in.range[1]),
+                              "swap the times");
+            if (!in.range.empty() && in.statistic == Statistic::value)
+              diagnostics.add("range", "range needs a statistic", "over a time there is more than one value", "add statistic = \"mean\"");
+            if (in.statistic != Statistic::value && (in.time || in.quantity))
+              diagnostics.add("statistic", "a statistic of one number", "it is taken over the range of a column", "remove statistic");
+            if (!in.keys.contains("tolerance") && !in.relative)
+              diagnostics.add("", "neither tolerance nor relative is given", "no computed number is exact", "add one of them");
+            if (in.relative && in.value == 0)
+              diagnostics.add("relative", "relative to a value of zero", "nothing but zero would pass", "use tolerance");
+          });
   return d;
 }
 
@@ -305,24 +342,26 @@ const Declaration<ExpectInput>& expect_declaration() {
 
 const Declaration<Problem>& problem_declaration() {
   static const auto d = Declaration<Problem>("input", "One problem: what is computed, how, and what comes out.")
-      .text("title", &Problem::title, "a line for pictures and reports")
-      .text("description", &Problem::description, "what the problem is about")
-      .choice("analysis", &Problem::analysis,
-              {{"plane_strain", Analysis::plane_strain}, {"plane_stress", Analysis::plane_stress}, {"three_dimensional", Analysis::three_dimensional}},
-              "the dimension, and in 2D what holds out of the plane")
-      .record("grid", &Problem::grid, grid_declaration, "the background grid", required)
-      .record("time", &Problem::time, time_declaration, "how far and in what steps", required)
-      .record("method", &Problem::method, method_declaration, "choices of the algorithm")
-      .record("contact", &Problem::contact, contact_declaration, "contact across cracks")
-      .records("material", &Problem::materials, material_declaration, "constitutive laws", required)
-      .records("body", &Problem::bodies, body_declaration, "what is made of them", required)
-      .records("crack", &Problem::cracks, crack_declaration, "explicit cracks")
-      .records("boundary", &Problem::boundaries, boundary_declaration, "prescribed velocities")
-      .records("symmetry", &Problem::symmetries, symmetry_declaration, "mirror planes")
-      .records("load", &Problem::loads, load_declaration, "forces")
-      .records("probe", &Problem::probes, probe_declaration, "points to watch")
-      .record("output", &Problem::output, output_declaration, "what is written")
-      .records("expect", &Problem::expects, expect_declaration, "numbers to reproduce");
+                            .text("title", &Problem::title, "a line for pictures and reports")
+                            .text("description", &Problem::description, "what the problem is about")
+                            .choice("analysis", &Problem::analysis,
+                                    {{"plane_strain", Analysis::plane_strain},
+                                     {"plane_stress", Analysis::plane_stress},
+                                     {"three_dimensional", Analysis::three_dimensional}},
+                                    "the dimension, and in 2D what holds out of the plane")
+                            .record("grid", &Problem::grid, grid_declaration, "the background grid", required)
+                            .record("time", &Problem::time, time_declaration, "how far and in what steps", required)
+                            .record("method", &Problem::method, method_declaration, "choices of the algorithm")
+                            .record("contact", &Problem::contact, contact_declaration, "contact across cracks")
+                            .records("material", &Problem::materials, material_declaration, "constitutive laws", required)
+                            .records("body", &Problem::bodies, body_declaration, "what is made of them", required)
+                            .records("crack", &Problem::cracks, crack_declaration, "explicit cracks")
+                            .records("boundary", &Problem::boundaries, boundary_declaration, "prescribed velocities")
+                            .records("symmetry", &Problem::symmetries, symmetry_declaration, "mirror planes")
+                            .records("load", &Problem::loads, load_declaration, "forces")
+                            .records("probe", &Problem::probes, probe_declaration, "points to watch")
+                            .record("output", &Problem::output, output_declaration, "what is written")
+                            .records("expect", &Problem::expects, expect_declaration, "numbers to reproduce");
   return d;
 }
 

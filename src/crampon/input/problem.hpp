@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "crampon/contact/law.hpp"
 #include "crampon/core/error.hpp"
 #include "crampon/core/function.hpp"
 #include "crampon/core/options.hpp"
 #include "crampon/core/vector.hpp"
-#include "crampon/contact/law.hpp"
 #include "crampon/geometry/shape.hpp"
 #include "crampon/material/material.hpp"
 
@@ -41,7 +41,7 @@ struct TimeInput : Located {
 struct MethodInput : Located {
   StressUpdate stress_update = StressUpdate::usavg;
   ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
-  ValueFunction damping;         ///< grid damping kappa of N03 Eq. 4, 1/s, may vary in time
+  ValueFunction damping;                  ///< grid damping kappa of N03 Eq. 4, 1/s, may vary in time
   std::vector<ValueFunction> body_force;  ///< acceleration b, m/s2, one per dimension or empty; uniform in space
   using BoundaryOrder = crampon::BoundaryOrder;
   using FixedForce = crampon::FixedForce;
@@ -64,7 +64,7 @@ struct ContactInput : Located {
   double volume_contact = 1.1;    ///< V_contact of N03
   bool require_approach = true;   ///< also above V_contact (N13); false: N03's normal sticking
   ReferenceVolume reference_volume = ReferenceVolume::initial;
-  double mass_screen = 1e-6;      ///< pairs with a mass fraction below this are left alone
+  double mass_screen = 1e-6;  ///< pairs with a mass fraction below this are left alone
 };
 
 /// [[material]]: a named constitutive law.
@@ -77,14 +77,14 @@ struct MaterialInput : Located {
 struct BodyInput : Located {
   std::string name;
   std::string material;
-  ShapePtr shape;                        ///< either shape or particles
-  std::optional<std::string> particles;  ///< CSV file, relative to the input: x,y[,z],volume[,vx,vy[,vz]], SI
+  ShapePtr shape;                                   ///< either shape or particles
+  std::optional<std::string> particles;             ///< CSV file, relative to the input: x,y[,z],volume[,vx,vy[,vz]], SI
   std::vector<std::int64_t> particles_per_cell{2};  ///< per direction; one value or one per axis; also the uGIMP particle size
-  bool match_mass = false;               ///< scale particle masses so that the body's mass is the shape's
-  double thickness = 1;                  ///< m, 2D only
-  std::vector<ValueFunction> velocity;   ///< initial, m/s, of position, one per dimension or empty
-  std::vector<double> spin;              ///< rad/s: one number in 2D, three in 3D, or empty
-  std::vector<double> spin_centre;       ///< m; default: the body's centre of mass
+  bool match_mass = false;                          ///< scale particle masses so that the body's mass is the shape's
+  double thickness = 1;                             ///< m, 2D only
+  std::vector<ValueFunction> velocity;              ///< initial, m/s, of position, one per dimension or empty
+  std::vector<double> spin;                         ///< rad/s: one number in 2D, three in 3D, or empty
+  std::vector<double> spin_centre;                  ///< m; default: the body's centre of mass
 };
 
 /// [[crack]]: a polyline, or an arc divided into segments. 2D.
@@ -106,18 +106,18 @@ struct CrackInput : Located {
 /// [[boundary]]: nodal velocity prescribed in a region.
 struct BoundaryInput : Located {
   std::string name;
-  ShapePtr region;  ///< nodes in this region; boundaries are included within 1e-9 of a cell
-  std::optional<ValueFunction> vx, vy, vz;  ///< m/s; a component left out is free
-  double start = 0;                                          ///< s
-  double end = std::numeric_limits<double>::infinity();      ///< s
+  ShapePtr region;                                       ///< nodes in this region; boundaries are included within 1e-9 of a cell
+  std::optional<ValueFunction> vx, vy, vz;               ///< m/s; a component left out is free
+  double start = 0;                                      ///< s
+  double end = std::numeric_limits<double>::infinity();  ///< s
 };
 
 /// [[symmetry]]: a plane on a grid line.
 struct SymmetryInput : Located {
   std::string name;
-  int axis = 0;               ///< 0, 1, 2 from "x", "y", "z": the normal
-  double at = 0;              ///< m, on a grid line
-  int side = 1;               ///< +1 ("above") when the body lies at larger coordinates, -1 ("below")
+  int axis = 0;   ///< 0, 1, 2 from "x", "y", "z": the normal
+  double at = 0;  ///< m, on a grid line
+  int side = 1;   ///< +1 ("above") when the body lies at larger coordinates, -1 ("below")
   /// Part of the plane: bounds of the other coordinates, m. NaN: unbounded.
   std::vector<double> from, to;  ///< one per dimension; the entry of `axis` is ignored
 };
@@ -126,8 +126,8 @@ struct SymmetryInput : Located {
 struct LoadInput : Located {
   std::string name;
   enum class Kind { total_force, force_each, traction, pressure } kind = Kind::total_force;
-  std::string body;               ///< restrict to this body; empty: all
-  ShapePtr region;                ///< particles initially in this region (traction, pressure: the face's cells lie in it)
+  std::string body;                  ///< restrict to this body; empty: all
+  ShapePtr region;                   ///< particles initially in this region (traction, pressure: the face's cells lie in it)
   std::vector<ValueFunction> value;  ///< N, N, Pa (per component); pressure: one, Pa. In t only
   std::optional<std::string> face;   ///< traction, pressure: "x-", "x+", "y-", ... of the body's cells
 };
@@ -135,21 +135,21 @@ struct LoadInput : Located {
 /// [[probe]]: history columns at a place.
 struct ProbeInput : Located {
   std::string name;
-  std::string quantity;              ///< as the particle output's names
-  std::vector<double> point;         ///< m: the particle nearest to it at the start
-  std::string body;                  ///< restrict to this body; empty: all
+  std::string quantity;       ///< as the particle output's names
+  std::vector<double> point;  ///< m: the particle nearest to it at the start
+  std::string body;           ///< restrict to this body; empty: all
 };
 
 /// [output]
 struct OutputInput : Located {
-  std::optional<double> every;               ///< s between frames
-  std::optional<std::int64_t> every_steps;   ///< steps between frames
-  std::vector<double> times;                 ///< s, exact list
-  std::optional<double> history_every;       ///< s; default: at most 1000 rows
-  std::optional<std::int64_t> history_steps; ///< steps between history rows
-  std::vector<std::string> quantities;       ///< particle quantities; empty: the common ones
-  bool full_precision = false;               ///< float64 instead of float32
-  bool grid = false;                         ///< also write nodes
+  std::optional<double> every;                ///< s between frames
+  std::optional<std::int64_t> every_steps;    ///< steps between frames
+  std::vector<double> times;                  ///< s, exact list
+  std::optional<double> history_every;        ///< s; default: at most 1000 rows
+  std::optional<std::int64_t> history_steps;  ///< steps between history rows
+  std::vector<std::string> quantities;        ///< particle quantities; empty: the common ones
+  bool full_precision = false;                ///< float64 instead of float32
+  bool grid = false;                          ///< also write nodes
 };
 
 /// [[expect]]: a number the run must reproduce.
@@ -161,11 +161,11 @@ struct ExpectInput : Located {
   std::optional<double> time;           ///< s; a history value there (linear between rows)
   std::vector<double> range;            ///< s, two: the statistic over this range
   enum class Statistic { value, minimum, maximum, mean, spread } statistic = Statistic::value;
-  double value = 0;      ///< SI
-  double tolerance = 0;  ///< absolute, SI; or
+  double value = 0;                ///< SI
+  double tolerance = 0;            ///< absolute, SI; or
   std::optional<double> relative;  ///< relative to |value|
-  std::string unit;      ///< for the table that is printed
-  std::string source;    ///< where the number comes from
+  std::string unit;                ///< for the table that is printed
+  std::string source;              ///< where the number comes from
 };
 
 /// A whole input file.

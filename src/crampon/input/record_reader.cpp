@@ -112,8 +112,8 @@ class TableReader {
   void report_missing(const Entry& entry) {
     const bool table = entry.kind == Kind::record && where_.empty(), tables = entry.kind == Kind::records && where_.empty();
     const std::string shown = table ? "[" + entry.key + "]" : tables ? "[[" + entry.key + "]]" : entry.key;
-    context_.diagnostics.add(here_.location, fmt::format("{} is missing", table || tables ? shown : "the key \"" + shown + "\""), entry.help,
-                             table || tables ? fmt::format("add a table {}", shown) : fmt::format("add {} = ...", shown));
+    context_.diagnostics.add(here_.location, fmt::format("{} is missing", table || tables ? shown : "the key \"" + shown + "\""),
+                             entry.help, table || tables ? fmt::format("add a table {}", shown) : fmt::format("add {} = ...", shown));
   }
 
   void excuse_alternatives(const AnyFamily& family) {
@@ -133,12 +133,18 @@ class TableReader {
   void read_entry(ResolvedTable& resolved, const Record& record, const Entry& entry, const toml::node& node, void* object) {
     const std::string where = join_path(where_, entry.key);
     switch (entry.kind) {
-      case Kind::record: return read_sub_record(resolved, entry, node, object, where);
-      case Kind::records: return read_records(resolved, entry, node, object, where);
-      case Kind::one_of: return read_one_of(resolved, entry, node, object, where);
-      case Kind::one_of_list: return read_list_of(resolved, entry, node, object, where);
-      case Kind::inline_one_of: return read_inline(resolved, entry, node, object, where);
-      default: break;
+      case Kind::record:
+        return read_sub_record(resolved, entry, node, object, where);
+      case Kind::records:
+        return read_records(resolved, entry, node, object, where);
+      case Kind::one_of:
+        return read_one_of(resolved, entry, node, object, where);
+      case Kind::one_of_list:
+        return read_list_of(resolved, entry, node, object, where);
+      case Kind::inline_one_of:
+        return read_inline(resolved, entry, node, object, where);
+      default:
+        break;
     }
     const std::string unit = record.unit_of(entry, object);
     const auto value = read_value(context_, entry, unit, node, where, here_.keys);
@@ -146,15 +152,19 @@ class TableReader {
     entry.set(object, *value);
     // The resolved input stands in the results folder: paths must not depend on where it is read from.
     const bool path = entry.file && std::holds_alternative<std::string>(*value);
-    resolved.add_plain(entry, path ? EntryValue(std::filesystem::absolute(resolve_path(context_, std::get<std::string>(*value))).string())
-                                   : entry.get(object), unit);
+    resolved.add_plain(
+        entry,
+        path ? EntryValue(std::filesystem::absolute(resolve_path(context_, std::get<std::string>(*value))).string()) : entry.get(object),
+        unit);
   }
 
   const toml::table* expect_table(const toml::node& node, const Entry& entry, const std::string& where) {
     if (const toml::table* table = node.as_table()) return table;
     std::string remedy = fmt::format("write {} = {{ ... }}", entry.key);
-    if (entry.list()) remedy = where_.empty() ? fmt::format("write [[{}]]", entry.key) : fmt::format("write {} = [{{ ... }}, ...]", entry.key);
-    if (!entry.list() && where_.empty()) remedy = fmt::format("write [{}]{}", entry.key, node.is_array_of_tables() ? " with single brackets" : "");
+    if (entry.list())
+      remedy = where_.empty() ? fmt::format("write [[{}]]", entry.key) : fmt::format("write {} = [{{ ... }}, ...]", entry.key);
+    if (!entry.list() && where_.empty())
+      remedy = fmt::format("write [{}]{}", entry.key, node.is_array_of_tables() ? " with single brackets" : "");
     complain(node.source(), where, fmt::format("{} where a table is expected", describe_type(node)), entry.help, remedy);
     return nullptr;
   }
@@ -244,8 +254,7 @@ class TableReader {
   }
 
   static bool needs_keys(const Record& record) {
-    return std::any_of(record.entries().begin(), record.entries().end(),
-                       [](const Entry& e) { return e.presence == Presence::required; });
+    return std::any_of(record.entries().begin(), record.entries().end(), [](const Entry& e) { return e.presence == Presence::required; });
   }
 
   static std::vector<std::string> names_of(const AnyFamily& family) {
@@ -257,14 +266,14 @@ class TableReader {
   const Alternative* find_alternative(const AnyFamily& family, const toml::node& tag, const std::string& where) {
     const auto* text = tag.as_string();
     if (!text) {
-      complain(tag.source(), where, fmt::format("{} where text is expected", describe_type(tag)), fmt::format("it names the {}", family.name()),
-               suggest_from("", names_of(family)));
+      complain(tag.source(), where, fmt::format("{} where text is expected", describe_type(tag)),
+               fmt::format("it names the {}", family.name()), suggest_from("", names_of(family)));
       return nullptr;
     }
     const Alternative* found = family.find(text->get());
     if (!found)
-      complain(tag.source(), where, fmt::format("unknown {} {}", family.name(), toml_quoted(text->get().substr(0, 60))),
-               family.help(), suggest_from(text->get(), names_of(family)));
+      complain(tag.source(), where, fmt::format("unknown {} {}", family.name(), toml_quoted(text->get().substr(0, 60))), family.help(),
+               suggest_from(text->get(), names_of(family)));
     return found;
   }
 

@@ -47,7 +47,8 @@ class PageWriter {
         "`sin`, `cos`, `exp`, `sqrt`, `abs`, `min`, `max`, `if(condition, yes, no)` ..., or a table linear in time and constant outside, "
         "`{ times = [\"0 s\", \"1 ms\"], values = [0, \"3 mm/s\"] }`, or the same from a file with lines `time,value` in SI, "
         "`{ file = \"pull.csv\", unit = \"mm/s\" }`. A factor to SI, `scale = 1e-3`, may stand in place of `unit`.\n"
-        "- A **list** of quantities may hold numbers and text side by side: `[\"0 mm\", 0.018]`.\n"
+        "- A **list** of quantities may hold numbers and text side by side: `[\"0 mm\", 0.018]`. Where one value is enough it needs no "
+        "brackets.\n"
         "- A key that is not listed here is an error.\n";
     section(2, "Top level", root);
     // Tables and families are mentioned on the way, also by each other.
@@ -115,26 +116,41 @@ class PageWriter {
 
   std::string type_text(const Entry& entry) {
     switch (entry.kind) {
-      case Kind::quantity: return "quantity";
-      case Kind::quantities: return "list of quantities";
-      case Kind::points: return "list of points";
-      case Kind::integer: return "integer";
-      case Kind::integers: return "list of integers";
-      case Kind::flag: return "`true` or `false`";
-      case Kind::text: return entry.file ? "path" : entry.name ? "name" : "text";
-      case Kind::texts: return "list of texts";
+      case Kind::quantity:
+        return "quantity";
+      case Kind::quantities:
+        return "list of quantities";
+      case Kind::points:
+        return "list of points";
+      case Kind::integer:
+        return "integer";
+      case Kind::integers:
+        return "list of integers";
+      case Kind::flag:
+        return "`true` or `false`";
+      case Kind::text:
+        return entry.file ? "path" : entry.name ? "name" : "text";
+      case Kind::texts:
+        return "list of texts";
       case Kind::choice: {
         std::string words;
         for (const std::string& word : entry.choices) words += (words.empty() ? "" : ", ") + code("\"" + word + "\"");
         return words;
       }
-      case Kind::function: return "function";
-      case Kind::functions: return "list of functions";
-      case Kind::record: return link("table", mention(entry, code("[" + entry.key + "]")));
-      case Kind::records: return link("array of tables", mention(entry, code("[[" + entry.key + "]]")));
-      case Kind::one_of: return link(entry.family().name(), mention(entry.family()));
-      case Kind::one_of_list: return "list of " + link(entry.family().name(), mention(entry.family()));
-      case Kind::inline_one_of: return link(entry.family().name(), mention(entry.family())) + ", with its keys beside it";
+      case Kind::function:
+        return "function";
+      case Kind::functions:
+        return "list of functions";
+      case Kind::record:
+        return link("table", mention(entry, code("[" + entry.key + "]")));
+      case Kind::records:
+        return link("array of tables", mention(entry, code("[[" + entry.key + "]]")));
+      case Kind::one_of:
+        return link(entry.family().name(), mention(entry.family()));
+      case Kind::one_of_list:
+        return "list of " + link(entry.family().name(), mention(entry.family()));
+      case Kind::inline_one_of:
+        return link(entry.family().name(), mention(entry.family())) + ", with its keys beside it";
     }
     return "";
   }
@@ -169,7 +185,8 @@ class PageWriter {
   static std::string bounds_text(const Entry& entry) {
     std::string text = entry.bounds.text();
     if (!entry.length.text().empty())
-      text += fmt::format("{}{} {}", text.empty() ? "" : "; ", entry.length.text(), entry.kind == Kind::points ? "coordinates each" : "values");
+      text +=
+          fmt::format("{}{} {}", text.empty() ? "" : "; ", entry.length.text(), entry.kind == Kind::points ? "coordinates each" : "values");
     return text;
   }
 };

@@ -26,9 +26,7 @@ std::string numbers_text(const std::vector<double>& list) { return list_text(lis
 
 std::string inline_text(const ResolvedTable& table) {
   std::string out;
-  const auto add = [&](const std::string& key, const std::string& value) {
-    out += (out.empty() ? " " : ", ") + key + " = " + value;
-  };
+  const auto add = [&](const std::string& key, const std::string& value) { out += (out.empty() ? " " : ", ") + key + " = " + value; };
   for (const ResolvedTable::Item& item : table.items) {
     if (item.kind == ResolvedTable::Item::Kind::plain) add(item.key, item.text);
     if (item.kind == ResolvedTable::Item::Kind::table) add(item.key, inline_text(item.tables.front()));

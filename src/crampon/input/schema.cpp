@@ -41,6 +41,12 @@ Json array_schema(Json items, const Length& length) {
   return schema;
 }
 
+// One value alone stands for an array of one.
+Json one_or_array(const Json& item, const Length& length) {
+  if (!length.contains(1)) return array_schema(item, length);
+  return {{"anyOf", Json::array({item, array_schema(item, length)})}};
+}
+
 // null where JSON or a single number cannot say it.
 struct DefaultToJson {
   Json operator()(std::monostate) const { return nullptr; }
@@ -97,7 +103,8 @@ class SchemaWriter {
       }
       schema["properties"][entry.key] = std::move(property);
       if (entry.presence == Presence::required) schema["required"].push_back(entry.key);
-      for (const std::string& other : entry.excludes) schema["allOf"].push_back(Json{{"not", {{"required", Json::array({entry.key, other})}}}});
+      for (const std::string& other : entry.excludes)
+        schema["allOf"].push_back(Json{{"not", {{"required", Json::array({entry.key, other})}}}});
     }
   }
 
@@ -112,8 +119,8 @@ class SchemaWriter {
   }
 
   Json record_schema(const Record& record) {
-    const auto choice = std::find_if(record.entries().begin(), record.entries().end(),
-                                     [](const Entry& e) { return e.kind == Kind::inline_one_of; });
+    const auto choice =
+        std::find_if(record.entries().begin(), record.entries().end(), [](const Entry& e) { return e.kind == Kind::inline_one_of; });
     if (choice == record.entries().end()) {
       Json schema = object_schema("", record.help());
       add_entries(schema, record);
@@ -158,30 +165,41 @@ class SchemaWriter {
 
   Json entry_schema(const Entry& entry) {
     switch (entry.kind) {
-      case Kind::quantity: return quantity_schema(entry.bounds);
-      case Kind::quantities: {
-        Json schema = array_schema(quantity_schema(entry.bounds), entry.length);
-        if (!entry.length.contains(1)) return schema;
-        return {{"anyOf", Json::array({quantity_schema(entry.bounds), std::move(schema)})}};
-      }
-      case Kind::points: return array_schema(array_schema(quantity_schema(entry.bounds), entry.length), {});
-      case Kind::integer: return number_schema("integer", entry.bounds);
-      case Kind::integers: return array_schema(number_schema("integer", entry.bounds), entry.length);
-      case Kind::flag: return {{"type", "boolean"}};
-      case Kind::text: return {{"type", "string"}};
-      case Kind::texts: return array_schema({{"type", "string"}}, entry.length);
-      case Kind::choice: return {{"enum", entry.choices}};
+      case Kind::quantity:
+        return quantity_schema(entry.bounds);
+      case Kind::quantities:
+        return one_or_array(quantity_schema(entry.bounds), entry.length);
+      case Kind::points:
+        return array_schema(array_schema(quantity_schema(entry.bounds), entry.length), {});
+      case Kind::integer:
+        return number_schema("integer", entry.bounds);
+      case Kind::integers:
+        return array_schema(number_schema("integer", entry.bounds), entry.length);
+      case Kind::flag:
+        return {{"type", "boolean"}};
+      case Kind::text:
+        return {{"type", "string"}};
+      case Kind::texts:
+        return array_schema({{"type", "string"}}, entry.length);
+      case Kind::choice:
+        return {{"enum", entry.choices}};
       // A $ref must stand alone in Draft 4; allOf lets a description stand beside it.
-      case Kind::function: return {{"allOf", Json::array({reference("function")})}};
-      case Kind::functions: return array_schema(reference("function"), entry.length);
-      case Kind::record: return record_schema(entry.record());
+      case Kind::function:
+        return {{"allOf", Json::array({reference("function")})}};
+      case Kind::functions:
+        return array_schema(reference("function"), entry.length);
+      case Kind::record:
+        return record_schema(entry.record());
       case Kind::records: {
         const Length length = entry.presence == Presence::required ? Length::at_least(1) : Length{};
         return array_schema(record_schema(entry.record()), length);
       }
-      case Kind::one_of: return {{"allOf", Json::array({family_reference(entry.family())})}};
-      case Kind::one_of_list: return array_schema(family_reference(entry.family()), entry.length);
-      case Kind::inline_one_of: break;
+      case Kind::one_of:
+        return {{"allOf", Json::array({family_reference(entry.family())})}};
+      case Kind::one_of_list:
+        return array_schema(family_reference(entry.family()), entry.length);
+      case Kind::inline_one_of:
+        break;
     }
     return Json::object();
   }

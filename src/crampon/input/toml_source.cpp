@@ -16,7 +16,11 @@ constexpr std::string_view setting_prefix = "--set ";
 std::size_t utf8_length(std::string_view text, std::size_t k) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(k);
-  const std::size_t length = first < 0x80 ? 1 : first >= 0xC2 && first < 0xE0 ? 2 : (first & 0xF0) == 0xE0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
+  const std::size_t length = first < 0x80                    ? 1
+                             : first >= 0xC2 && first < 0xE0 ? 2
+                             : (first & 0xF0) == 0xE0        ? 3
+                             : first >= 0xF0 && first < 0xF5 ? 4
+                                                             : 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(k + i) & 0xC0) != 0x80) return 0;
   const unsigned second = byte(k + 1);
@@ -116,8 +120,7 @@ void apply_override(toml::table& root, const std::string& setting, Diagnostics& 
   try {
     // Line breaks would let a setting smuggle in further keys.
     if (value_text.find('\n') == std::string::npos) holder = toml::parse("v = " + value_text, origin);
-  } catch (const toml::parse_error&) {
-  }
+  } catch (const toml::parse_error&) {}
   if (holder.size() != 1) holder = toml::parse("v = " + toml_quoted(trim(value_text)), origin);
   toml::node& value = *holder.get("v");
   // Copies of a node forget where it stood; moved ones remember.
@@ -146,7 +149,8 @@ void apply_override(toml::table& root, const std::string& setting, Diagnostics& 
     } else {
       toml::table* table = here->as_table();
       if (!table) {
-        complain(fmt::format("\"{}\" cannot be set", step.key), "what stands before it is not a table", "correct the path; elements of an array are chosen by [0]");
+        complain(fmt::format("\"{}\" cannot be set", step.key), "what stands before it is not a table",
+                 "correct the path; elements of an array are chosen by [0]");
         return;
       }
       if (last) {
@@ -175,14 +179,22 @@ Location locate(const toml::source_region& region, const std::string& where) {
 
 std::string describe_type(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return node.is_array_of_tables() ? "an array of tables" : "an array";
-    case toml::node_type::string: return "text";
-    case toml::node_type::integer: return "a whole number";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return node.value_or(false) ? "true" : "false";
-    case toml::node_type::none: break;
-    default: return "a date or time";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return node.is_array_of_tables() ? "an array of tables" : "an array";
+    case toml::node_type::string:
+      return "text";
+    case toml::node_type::integer:
+      return "a whole number";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return node.value_or(false) ? "true" : "false";
+    case toml::node_type::none:
+      break;
+    default:
+      return "a date or time";
   }
   return "nothing";
 }

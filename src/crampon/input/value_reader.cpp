@@ -24,21 +24,30 @@ class ValueReader {
 
   std::optional<EntryValue> read(const toml::node& node, const std::string& where) {
     switch (entry_.kind) {
-      case Kind::quantity: return wrap(quantity(node, where));
-      case Kind::integer: return wrap(integer(node, where));
-      case Kind::flag: return wrap(flag(node, where));
-      case Kind::text: return wrap(text(node, where));
-      case Kind::choice: return wrap(choice(node, where));
-      case Kind::function: return wrap(function(node, where));
-      case Kind::quantities: return wrap(numbers(node, where));
+      case Kind::quantity:
+        return wrap(quantity(node, where));
+      case Kind::integer:
+        return wrap(integer(node, where));
+      case Kind::flag:
+        return wrap(flag(node, where));
+      case Kind::text:
+        return wrap(text(node, where));
+      case Kind::choice:
+        return wrap(choice(node, where));
+      case Kind::function:
+        return wrap(function(node, where));
+      case Kind::quantities:
+        return wrap(numbers(node, where));
       case Kind::integers:
         return wrap(list<std::int64_t>(node, where, entry_.length, [&](const auto& n, const auto& w) { return integer(n, w); }));
-      case Kind::texts: return wrap(list<std::string>(node, where, entry_.length, [&](const auto& n, const auto& w) { return text(n, w); }));
+      case Kind::texts:
+        return wrap(list<std::string>(node, where, entry_.length, [&](const auto& n, const auto& w) { return text(n, w); }));
       case Kind::functions:
         return wrap(list<ValueFunction>(node, where, entry_.length, [&](const auto& n, const auto& w) { return function(n, w); }));
       case Kind::points:
         return wrap(list<std::vector<double>>(node, where, Length{}, [&](const auto& n, const auto& w) { return numbers(n, w); }));
-      default: throw std::logic_error("entry " + entry_.key + " is not plain");
+      default:
+        throw std::logic_error("entry " + entry_.key + " is not plain");
     }
   }
 
@@ -117,8 +126,8 @@ class ValueReader {
     if (entry_.name) {
       const auto allowed = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == ' ' || c >= 0x80; };
       if (value.empty() || !std::all_of(value.begin(), value.end(), allowed))
-        return complain(node, where, fmt::format("{} is no name", toml_shown(value)),
-                        "names become file names and column headers", "use letters, digits, \"_\", \"-\" and blanks");
+        return complain(node, where, fmt::format("{} is no name", toml_shown(value)), "names become file names and column headers",
+                        "use letters, digits, \"_\", \"-\" and blanks");
     }
     if (entry_.file) {
       std::error_code error;
@@ -144,22 +153,30 @@ class ValueReader {
     return value ? std::optional(ValueFunction::constant(*value)) : std::nullopt;
   }
 
-  // A list of quantities. One number alone stands for a list of one where that is a possible length.
   std::optional<std::vector<double>> numbers(const toml::node& node, const std::string& where) {
-    if (!node.is_array() && entry_.kind == Kind::quantities && entry_.length.contains(1) && (node.is_number() || node.is_string())) {
-      const std::optional<double> value = quantity(node, where);
-      return value ? std::optional(std::vector<double>{*value}) : std::nullopt;
-    }
     return list<double>(node, where, entry_.length, [&](const auto& n, const auto& w) { return quantity(n, w); });
+  }
+
+  // One value alone stands for a list of one where that is a possible length.
+  bool alone(const toml::node& node, Length length) const {
+    return entry_.kind != Kind::points && length.contains(1) &&
+           (node.is_number() || node.is_string() || (entry_.kind == Kind::functions && node.is_table()));
   }
 
   template <class V, class ReadOne>
   std::optional<std::vector<V>> list(const toml::node& node, const std::string& where, Length length, ReadOne read_one) {
     const toml::array* array = node.as_array();
-    if (!array) return wrong_type(node, where, entry_.kind == Kind::quantities && length.contains(1) ? "a quantity or an array" : "an array", array_example());
+    if (!array && alone(node, length)) {
+      const std::optional<V> value = read_one(node, where);
+      return value ? std::optional(std::vector<V>{*value}) : std::nullopt;
+    }
+    if (!array)
+      return wrong_type(node, where, entry_.kind != Kind::points && length.contains(1) ? "one value or an array" : "an array",
+                        array_example());
     if (!length.contains(array->size()))
-      return complain(node, where, fmt::format("{} value{} where {} {} expected", array->size(), array->size() == 1 ? "" : "s",
-                                               length.text(), length.most == 1 ? "is" : "are"),
+      return complain(node, where,
+                      fmt::format("{} value{} where {} {} expected", array->size(), array->size() == 1 ? "" : "s", length.text(),
+                                  length.most == 1 ? "is" : "are"),
                       entry_.help, fmt::format("write for example {}", array_example()));
     std::vector<V> values;
     bool good = true;
@@ -174,8 +191,13 @@ class ValueReader {
   }
 
   std::string array_example() const {
-    const std::size_t size = entry_.length.contains(2) || entry_.kind == Kind::points ? 2 : std::max<std::size_t>(1, std::min<std::size_t>(3, entry_.length.least));
-    std::string one = entry_.kind == Kind::integers ? "2" : entry_.kind == Kind::texts ? "\"a\"" : unit_ == "1" ? "2.5" : "\"2.5 " + unit_ + "\"";
+    const std::size_t size = entry_.length.contains(2) || entry_.kind == Kind::points
+                                 ? 2
+                                 : std::max<std::size_t>(1, std::min<std::size_t>(3, entry_.length.least));
+    std::string one = entry_.kind == Kind::integers ? "2"
+                      : entry_.kind == Kind::texts  ? "\"a\""
+                      : unit_ == "1"                ? "2.5"
+                                                    : "\"2.5 " + unit_ + "\"";
     std::string out = one;
     for (std::size_t k = 1; k < size; ++k) out += ", " + one;
     return entry_.kind == Kind::points ? fmt::format("[[{}], [{}]]", out, out) : "[" + out + "]";
