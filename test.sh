@@ -13,5 +13,7 @@ if [ "${1:-}" = --full ]; then
 fi
 cmake/install_packages.sh build test
 cmake/build.sh release -DCRAMPON_TESTS=ON all
+# Threads that wait leave their core to the other test.
+export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
 # Two at a time: the longer tests use two threads of their own.
 exec ctest --test-dir build/release --output-on-failure --parallel 2 "${select[@]}" "$@"

@@ -247,8 +247,8 @@ class CliTest(unittest.TestCase):
         self.assertIn("nowhere", self.call("info", "nowhere", code=4)[1])
 
     def test_partial_check_of_a_shortened_run(self):
-        (self.folder / "small.toml").write_text(SMALL + "time = 0.01\n")
-        self.call("run", "small.toml", "-q", "--set", "time.steps=5")
+        self.call("run", "small.toml", "-q", "--steps", "5")
+        self.assertEqual(json.loads((self.folder / "small.results/run.json").read_text())["status"], "shortened")
         self.call("check", "small.results", code=1)
         self.call("check", "small.results", "--partial")
 
@@ -270,7 +270,7 @@ class CliTest(unittest.TestCase):
             self.call("init", name)
             self.assertIn("valid", self.call("validate", name + ".toml")[0])
             self.assertEqual(self.call("init", name, "-o", "-")[0], (self.folder / (name + ".toml")).read_text())
-            self.call("run", name + ".toml", "-q", "--set", "time.end=\"2 us\"", "--set", "output.every=\"1 us\"")
+            self.call("run", name + ".toml", "-q", "--steps", "20")
             self.call("check", name + ".results", "--partial")
         self.assertIn("--force", self.call("init", "block", code=2)[1])
         self.call("init", "block", "--force")

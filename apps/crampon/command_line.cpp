@@ -72,6 +72,7 @@ int run_command_line(int argc, const char* const* argv) {
   sub->add_option("-o,--output", run.output, "folder for the results; left out: the input's name with .results, in the present folder")
       ->type_name("DIR");
   add_settings(*sub, run.settings, run.threads);
+  sub->add_option("--steps", run.steps, "end after so many steps, to try an input")->type_name("N")->check(CLI::PositiveNumber);
   sub->add_flag("-f,--force", run.force, "replace older results in the folder");
   sub->add_flag("-q,--quiet", run.quiet, "print errors only");
   sub->footer("Example: crampon run crack.toml --set time.end=\"1 ms\" --output longer.results");

@@ -2,6 +2,7 @@
 /// The subcommands: what the command line hands them (command_line.cpp) and where their work begins, one file each.
 /// All return the exit code; errors are exceptions, which main() turns into messages and codes.
 
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -22,6 +23,7 @@ struct RunArguments {
   std::string output;  ///< folder; empty: name of the input with .results, in the present folder
   std::vector<std::string> settings;
   int threads = 0;
+  std::optional<std::int64_t> steps;  ///< end after so many
   bool force = false, quiet = false;
 };
 int run_command(const RunArguments& arguments);

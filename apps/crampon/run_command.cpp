@@ -35,8 +35,7 @@ class InterruptGuard {
 void print_start(const Problem& problem, const Simulation& simulation, int threads) {
   const SimulationSize size = simulation.size();
   fmt::print("{}\n", styled(stdout, Style::bold, problem.title.empty() ? "untitled" : problem.title));
-  fmt::print("{} particles in {} of {} cells", count_text(static_cast<double>(size.particles)),
-             count_text(static_cast<double>(size.active_cells)), count_text(static_cast<double>(size.cells)));
+  fmt::print("{} particles, {} cells", count_text(static_cast<double>(size.particles)), count_text(static_cast<double>(size.cells)));
   if (size.cracks > 0) fmt::print(", {} cracks with {} segments", size.cracks, size.crack_segments);
   fmt::print("; {} steps of about {}; {} thread{}\n", count_text(static_cast<double>(size.steps)), duration_text(size.time_step), threads,
              threads == 1 ? "" : "s");
@@ -46,7 +45,7 @@ void print_start(const Problem& problem, const Simulation& simulation, int threa
 void print_end(const Problem& problem, const RunOutcome& outcome) {
   const RunRecord& record = outcome.record;
   fmt::print("{} after {} steps at t = {:.6g} s, in {} ({:.2f} million particle-steps per second)\n",
-             outcome.end == RunOutcome::End::finished ? "finished" : "stopped", count_text(static_cast<double>(record.steps)), record.end_time,
+             record.status.substr(0, record.status.find(':')), count_text(static_cast<double>(record.steps)), record.end_time,
              duration_text(record.wall_seconds), record.particle_steps_per_second * 1e-6);
   for (const std::string& note : record.notes) fmt::print("{} {}\n", styled(stdout, Style::yellow, "note:"), note);
   if (outcome.end == RunOutcome::End::finished && !problem.expects.empty())
@@ -67,6 +66,7 @@ int run_command(const RunArguments& arguments) {
   options.overwrite = arguments.force ? Overwrite::replace : Overwrite::refuse;
   options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
   options.input = arguments.input;
+  options.most_steps = arguments.steps;
   options.interrupt = &interrupted;
   ResultsFolder::check(options.folder, options.overwrite);  // before a large problem is built
 

@@ -20,7 +20,7 @@ int validate_command(const ValidateArguments& arguments) {
   fmt::print("{}: {}\n", arguments.input, styled(stdout, Style::green, "valid"));
   if (!problem.title.empty()) line("title", problem.title);
   line("particles", count_text(static_cast<double>(size.particles)));
-  line("cells", fmt::format("{}, of which {} in blocks with particles", count_text(static_cast<double>(size.cells)),
+  line("cells", fmt::format("{} in the grid, {} in blocks that hold particles", count_text(static_cast<double>(size.cells)),
                             count_text(static_cast<double>(size.active_cells))));
   if (size.cracks > 0) line("cracks", fmt::format("{} with {} segments", size.cracks, size.crack_segments));
   line("steps", count_text(static_cast<double>(size.steps)));

@@ -131,7 +131,7 @@ def boundary_cases():
         for order in ("contact_first", "boundary_first"):
             ramp = 0.3 if force == "zero" else "0.3*sin(400*t)+0.1"
             yield base("boundary_%s_%s" % (force, order), slab(), fixed_force=force, order=order,
-                       stress_update={"incremental": "usavg", "n13": "usl", "zero": "usf"}[force],
+                       stress_update={"incremental": "usavg", "n13": "usavg", "zero": "usf"}[force],
                        boundaries=[dict(left, vx=0.0, vy=0.0), dict(right, vx=ramp)],
                        cracks=[{"points": path((4.5, 6.2), (7.6, 6.1)), "law": "coulomb", "friction": 0.3}])
     yield base("boundary_bspline", slab(), shape="bspline", boundaries=[dict(left, vx=0.0, vy=0.0), dict(right, vx="100*t")])

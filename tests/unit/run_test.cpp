@@ -206,6 +206,14 @@ TEST_F(RunTest, AStoppedRunLeavesGoodFramesAndTheStateForInspection) {
   EXPECT_TRUE(std::isfinite(read_history(results().history()).column("square").back()));
 }
 
+TEST_F(RunTest, ATrialEndsAfterTheWantedSteps) {
+  options.most_steps = 3;
+  FakeSimulation simulation(0.25, 2);
+  EXPECT_EQ(run_problem(problem, simulation, options).end, RunOutcome::End::shortened);
+  EXPECT_EQ(frame_times(), (std::vector<double>{0, 0.75}));
+  EXPECT_EQ(read_run_record(results().run_record()).status, "shortened");
+}
+
 TEST_F(RunTest, AnInterruptEndsInOrder) {
   std::atomic<bool> interrupt{false};
   options.interrupt = &interrupt;

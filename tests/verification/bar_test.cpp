@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "run_case.hpp"
 
 namespace crampon::test {
@@ -10,16 +12,10 @@ namespace {
 
 constexpr double steel_speed = 5047.5;  // sqrt(200e9/7850), m/s
 
-/// Two steel bars of 0.75 m run into each other at 1 m/s each.
-std::string colliding_bars(bool three_dimensional, const char* shape_functions) {
-  const char* third = three_dimensional ? ", 0.04" : "";
-  const char* low = three_dimensional ? ", 0.01" : "";
-  const char* high = three_dimensional ? ", 0.03" : "";
-  const auto body = [&](const char* name, double from, double to, double v) {
-    return fmt::format("[[body]]\nname = \"{}\"\nmaterial = \"steel\"\nshape = {{ kind = \"{}\", low = [{}, 0.01{}], high = [{}, 0.03{}] }}\nvelocity = [{}, 0{}]\n",
-                       name, three_dimensional ? "box" : "rectangle", from, low, to, high, v, three_dimensional ? ", 0" : "");
-  };
-  return fmt::format(R"(
+/// A steel bar of 1.5 m in 2D or 3D, with an initial velocity along it.
+std::string steel_bar(bool three_dimensional, const char* shape_functions, const char* velocity, const char* quantity, double far) {
+  const auto third = [&](const char* text) { return three_dimensional ? text : ""; };
+  return fmt::format(R"toml(
 analysis = "{}"
 [grid]
 origin = [-0.8, 0{}]
@@ -36,42 +32,59 @@ law = "elastic_small_strain"
 E = "200 GPa"
 nu = 0
 density = 7850
-)",
-                     three_dimensional ? "three_dimensional" : "plane_strain", three_dimensional ? ", 0" : "", third, shape_functions) +
-         body("left", -0.75, 0, 1) + body("right", 0, 0.75, -1) +
-         "[[probe]]\nname = \"near\"\nquantity = \"stress\"\npoint = [-0.1, 0.02" + (three_dimensional ? ", 0.02" : "") + "]\n" +
-         "[[probe]]\nname = \"far\"\nquantity = \"stress\"\npoint = [-0.4, 0.02" + (three_dimensional ? ", 0.02" : "") + "]\n";
+[[body]]
+name = "bar"
+material = "steel"
+shape = {{ kind = "{}", low = [-0.75, 0.01{}], high = [0.75, 0.03{}] }}
+velocity = [{{ expression = "{}" }}, 0{}]
+[[probe]]
+name = "near"
+quantity = "{}"
+point = [0.2, 0.02{}]
+[[probe]]
+name = "far"
+quantity = "{}"
+point = [{}, 0.02{}]
+)toml",
+                     three_dimensional ? "three_dimensional" : "plane_strain", third(", 0"), third(", 0.04"), shape_functions,
+                     three_dimensional ? "box" : "rectangle", third(", 0.01"), third(", 0.03"), velocity, third(", 0"), quantity,
+                     third(", 0.02"), quantity, far, third(", 0.02"));
 }
 
-class Impact : public testing::TestWithParam<std::tuple<bool, const char*>> {};
+class Bar : public testing::TestWithParam<std::tuple<bool, const char*>> {};
 
-/// Row 44: the front runs at sqrt(E/rho) and carries rho c v = 39.62 MPa per m/s.
-TEST_P(Impact, FrontAndPlateauOfTwoBars) {
+/// Row 44, speed: the halves of a smooth pulse run apart at sqrt(E/rho). (A sharp front is spread by the grid: its middle lags.)
+TEST_P(Bar, PulseRunsAtTheWaveSpeed) {
   const auto [three_dimensional, shape] = GetParam();
-  const auto simulation = make(colliding_bars(three_dimensional, shape));
+  const auto simulation = make(steel_bar(three_dimensional, shape, "exp(-(x/0.1)^2)", "velocity", 0.5));
   std::vector<double> t, near, far;
   run(*simulation, [&](Simulation& s) {
     t.push_back(s.time());
-    near.push_back(-value(s, "near.stress_xx"));
-    far.push_back(-value(s, "far.stress_xx"));
+    near.push_back(value(s, "near.velocity_x"));
+    far.push_back(value(s, "far.velocity_x"));
   });
-  const double plateau = 39.62e6;
-  // A lumped-mass grid disperses the front into an Airy function's integral, which is 1/3 at x = c t.
-  const double level = plateau / 3;
-  const auto arrival = [&](const std::vector<double>& s) {
-    std::size_t i = 1;
-    while (i + 1 < s.size() && s[i] < level) ++i;
-    return t[i - 1] + (level - s[i - 1]) / (s[i] - s[i - 1]) * (t[i] - t[i - 1]);
+  const auto peak = [&](const std::vector<double>& v) {
+    const auto i = static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
+    const double a = v[i - 1], b = v[i], c = v[i + 1];
+    return t[i] + 0.5 * (a - c) / (a - 2 * b + c) * (t[i + 1] - t[i]);
   };
-  EXPECT_NEAR(0.3 / (arrival(far) - arrival(near)), steel_speed, 0.005 * steel_speed);  // the row's tolerance
+  EXPECT_NEAR(0.3 / (peak(far) - peak(near)), steel_speed, 0.005 * steel_speed);  // the row's tolerance
+}
+
+/// Row 44, plateau: the halves of the bar run into each other at 1 m/s each; behind the front rho c v = 39.62 MPa.
+TEST_P(Bar, ImpactLeavesThePlateauBehind) {
+  const auto [three_dimensional, shape] = GetParam();
+  const auto simulation = make(steel_bar(three_dimensional, shape, "(x<0)-(x>0)", "stress", 0.1));
   double mean = 0;
   int count = 0;
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    if (t[i] > 0.25 / steel_speed && t[i] < 0.6 / steel_speed) mean += near[i], ++count;
-  }
-  EXPECT_NEAR(mean / count, plateau, 0.01 * plateau);
+  run(*simulation, [&](Simulation& s) {
+    // Well behind the front, which passes 0.1 m, and before the echo of the free ends at 1.4 m.
+    if (s.time() > 0.25 / steel_speed && s.time() < 0.7 / steel_speed) mean -= value(s, "far.stress_xx"), ++count;
+  });
+  ASSERT_GT(count, 10);
+  EXPECT_NEAR(mean / count, 39.62e6, 0.01 * 39.62e6);
 }
-INSTANTIATE_TEST_SUITE_P(Bars, Impact, testing::Combine(testing::Bool(), testing::Values("linear", "gimp", "bspline")));
+INSTANTIATE_TEST_SUITE_P(Bars, Bar, testing::Combine(testing::Bool(), testing::Values("linear", "gimp", "bspline")));
 
 /// Row 46: fixed at the left by a wall, free at the right, v = v0 sin(pi x / 2L): omega = pi c / 2L.
 class Vibration : public testing::TestWithParam<std::tuple<const char*, const char*>> {};

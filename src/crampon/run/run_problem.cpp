@@ -159,6 +159,11 @@ RunOutcome run_problem(const Problem& problem, Simulation& simulation, const Run
     recorder.record_state();
     record.status = "finished";
     while (!simulation.finished()) {
+      if (options.most_steps && simulation.steps_done() >= *options.most_steps) {
+        outcome.end = RunOutcome::End::shortened;
+        record.status = "shortened";
+        break;
+      }
       if (options.interrupt != nullptr && options.interrupt->load()) {
         outcome.end = RunOutcome::End::interrupted;
         record.status = "interrupted";

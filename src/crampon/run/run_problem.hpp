@@ -4,6 +4,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "crampon/output/results_folder.hpp"
@@ -26,12 +27,14 @@ struct RunOptions {
   int threads = 1;    ///< for the record: the simulation was created with it
   std::string input;  ///< name of the input file, for the record
   std::function<void(const Progress&)> progress;
+  std::optional<std::int64_t> most_steps;  ///< end earlier than the input says, to try it
   const std::atomic<bool>* interrupt = nullptr;  ///< set from outside (Ctrl-C): the run ends in order after the present step
 };
 
 struct RunOutcome {
   enum class End {
     finished,
+    shortened,    ///< by RunOptions::most_steps
     interrupted,  ///< last state written as a frame
     stopped       ///< RunError; the state it left is the last frame, for inspection
   } end = End::finished;

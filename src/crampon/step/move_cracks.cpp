@@ -20,6 +20,9 @@ Vec<2> vertex_normal(const Crack<2>& crack, std::size_t v) {
   return normalized(n);
 }
 
+/// Cells between a vertex of the plane and its surface points up to which the bins know all segments between them.
+constexpr int surface_reach = 2;
+
 /// A node as a crack vertex sees it: linear S and the node's place in the arrays.
 struct NodeShare {
   double S = 0;
@@ -80,33 +83,45 @@ std::optional<Vec<2>> plane_velocity(const State<2>& state, const Grid<2>& grid,
   return sum * (1 / weight);
 }
 
-/// The same for one surface: at every node the field to which the line from the surface point belongs.
-std::optional<Vec<2>> surface_velocity(const State<2>& state, const Grid<2>& grid, const std::vector<CrackPath>& paths,
-                                       const FacetBins& bins, const Vec<2>& x) {
+/// The same for one surface: at every node the field of that side. The side is found from the vertex of the plane, moved a little to it:
+/// a surface point itself may lie a hair beyond the plane while the crack is closed, and would then go with the wrong side for good.
+/// Weights are those of the plane, S alone: where faces press on each other they share the normal velocity at every node, and both
+/// surfaces then move as one; weights by mass (fracture.md 6.4) let them drift by the strain over a third of a cell.
+std::optional<Vec<2>> surface_velocity(const State<2>& state, const Grid<2>& grid, const std::vector<CrackPath>& paths, const FacetBins& bins,
+                                       const Vec<2>& from, const Vec<2>& x) {
   Vec<2> sum{};
-  double mass = 0;
-  const auto facets = bins.facets_of_cell(static_cast<int>(std::floor((x[0] - grid.origin[0]) * grid.inverse_cell[0])),
-                                          static_cast<int>(std::floor((x[1] - grid.origin[1]) * grid.inverse_cell[1])));
+  double weight = 0;
+  const auto cell_of = [&](int k, double coordinate) { return static_cast<int>(std::floor((coordinate - grid.origin[k]) * grid.inverse_cell[k])); };
+  const auto facets = bins.facets_of_cell(cell_of(0, from[0]), cell_of(1, from[1]));
+  bool within_reach = true;
+  for (int k = 0; k < 2; ++k) within_reach = within_reach && std::abs(cell_of(k, x[k]) - cell_of(k, from[k])) <= surface_reach;
   for (const NodeShare& node : nodes_around(state, grid, x)) {
     if (node.block == no_block || node.S == 0) continue;
     Signature signature;
     bool fits = true;
-    for (std::size_t f = 0; f < facets.size();) {
-      const CrackId c = facets[f].crack;
-      const std::size_t first = f;
-      while (f < facets.size() && facets[f].crack == c) ++f;
-      if (cross_path(paths[c], facets.subspan(first, f - first), x, node.x).crosses()) fits = signature.append(c) && fits;
+    if (within_reach) {
+      for (std::size_t f = 0; f < facets.size();) {
+        const CrackId c = facets[f].crack;
+        const std::size_t first = f;
+        while (f < facets.size() && facets[f].crack == c) ++f;
+        if (cross_path(paths[c], facets.subspan(first, f - first), from, node.x).crosses()) fits = signature.append(c) && fits;
+      }
+    } else {
+      for (std::size_t c = 0; c < paths.size(); ++c) {
+        if (cross_path(paths[c], from, node.x).crosses()) fits = signature.append(static_cast<CrackId>(c)) && fits;
+      }
     }
     const BlockLayers<2>& layers = state.nodes.layers[node.block];
     for (std::size_t l = 0; l < layers.node.size() && fits; ++l) {
       if (layers.node[l] != signature) continue;
       const Pack p = state.nodes.momentum[(layers.node_begin + l) * block_nodes<2> + node.local];
-      for (int k = 0; k < 2; ++k) sum[k] += node.S * p[k];
-      mass += node.S * p[2];
+      if (!(p[2] > 0)) continue;
+      for (int k = 0; k < 2; ++k) sum[k] += node.S * p[k] / p[2];
+      weight += node.S;
     }
   }
-  if (!(mass > 0)) return std::nullopt;
-  return sum * (1 / mass);
+  if (!(weight > 0)) return std::nullopt;
+  return sum * (1 / weight);
 }
 
 /// Vertices without a velocity take that of the nearest vertex along the crack that has one; none has: they stay.
@@ -123,6 +138,17 @@ void fill_gaps(std::vector<std::optional<Vec<2>>>& v) {
   }
 }
 
+/// Faces in contact do not cross the plane between them; what is beyond it is the drift of a surface point that was open for long,
+/// and is taken back (fracture.md 6.4, "no plane crossing").
+void keep_sides(Crack<2>& crack) {
+  for (std::size_t v = 0; v < crack.plane.size(); ++v) {
+    const Vec<2> down = vertex_normal(crack, v);
+    const double upper = dot(crack.upper[v] - crack.plane[v], down), lower = dot(crack.lower[v] - crack.plane[v], down);
+    if (upper > 0) crack.upper[v] -= down * upper;
+    if (lower < 0) crack.lower[v] -= down * lower;
+  }
+}
+
 }  // namespace
 
 CrackOpening opening_at(const Crack<2>& crack, std::size_t v) {
@@ -136,7 +162,7 @@ void move_cracks<2>(State<2>& state, const Model<2>& model, double dt) {
   std::vector<CrackPath> paths;
   for (const Crack<2>& crack : state.cracks.list) paths.push_back({crack.plane, {}, crack.closed, {}});
   FacetBins bins;
-  bins.build({model.grid.origin, model.grid.cell, model.grid.cells, 0, 0}, paths);
+  bins.build({model.grid.origin, model.grid.cell, model.grid.cells, surface_reach, surface_reach}, paths);
 
   struct Motion {
     std::vector<std::optional<Vec<2>>> plane, upper, lower;
@@ -152,9 +178,8 @@ void move_cracks<2>(State<2>& state, const Model<2>& model, double dt) {
     parallel_for(n, model.threads, [&](std::size_t v) {
       const Vec<2> down = vertex_normal(crack, v);
       motion[c].plane[v] = plane_velocity(state, model.grid, crack.plane[v]);
-      const Vec<2> up = crack.upper[v] - down * nudge, low = crack.lower[v] + down * nudge;
-      motion[c].upper[v] = surface_velocity(state, model.grid, paths, bins, up);
-      motion[c].lower[v] = surface_velocity(state, model.grid, paths, bins, low);
+      motion[c].upper[v] = surface_velocity(state, model.grid, paths, bins, crack.plane[v] - down * nudge, crack.upper[v]);
+      motion[c].lower[v] = surface_velocity(state, model.grid, paths, bins, crack.plane[v] + down * nudge, crack.lower[v]);
     });
     fill_gaps(motion[c].plane);
     for (std::size_t v = 0; v < n; ++v) {
@@ -172,6 +197,8 @@ void move_cracks<2>(State<2>& state, const Model<2>& model, double dt) {
     if (!crack.fixed) advance(crack.plane, motion[c].plane);
     advance(crack.upper, motion[c].upper);
     advance(crack.lower, motion[c].lower);
+    const bool faces_meet = !std::holds_alternative<NoContact>(model.crack_laws[c]);
+    if (faces_meet && !crack.fixed) keep_sides(crack);
     if (crack.closed) {
       for (auto* x : {&crack.plane, &crack.upper, &crack.lower}) x->back() = x->front();
     }
