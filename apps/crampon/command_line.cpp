@@ -102,7 +102,8 @@ int run_command_line(int argc, const char* const* argv) {
   sub->add_option("-c,--quantity", draw.quantity, "colour by this, e.g. stress_xx, velocity, von_mises, pressure; left out: von_mises")
       ->type_name("NAME");
   CLI::Option* frames = sub->add_option("--frame", draw.frames, "numbers of frames from 0; -1 is the last")->type_name("N");
-  CLI::Option* times = sub->add_option("--time", draw.times, "the frames nearest to these times, e.g. \"20 us\"")->type_name("T")->excludes(frames);
+  CLI::Option* times =
+      sub->add_option("--time", draw.times, "the frames nearest to these times, e.g. \"20 us\"")->type_name("T")->excludes(frames);
   sub->add_flag("--all", draw.all, "a picture of every frame, with one colour range")->excludes(frames)->excludes(times);
   sub->add_option("--panel", draw.panel, "one picture of several frames in rows and columns; without --frame or --time evenly spread")
       ->type_name("RxC");
@@ -120,9 +121,10 @@ int run_command_line(int argc, const char* const* argv) {
   sub->add_option("--width", draw.width, "of the picture, px")->type_name("PX")->check(CLI::Range(200, 10000));
   sub->add_option("-o,--output", draw.output, "PNG file (a folder when there are several pictures); left out: in RESULTS/pictures")
       ->type_name("PATH");
-  sub->footer("Examples:\n  crampon draw crack.results --quantity stress_yy --magnify 20 --time \"15 us\"\n"
-              "  crampon draw disks.results --panel 2x2 --quantity velocity\n"
-              "  crampon draw disks.results --history kinetic_energy strain_energy -o energy.png");
+  sub->footer(
+      "Examples:\n  crampon draw crack.results --quantity stress_yy --magnify 20 --time \"15 us\"\n"
+      "  crampon draw disks.results --panel 2x2 --quantity velocity\n"
+      "  crampon draw disks.results --history kinetic_energy strain_energy -o energy.png");
 
   CheckArguments check;
   sub = app.add_subcommand("check", "compare results with the [[expect]] entries of their input");

@@ -10,7 +10,14 @@
 
 namespace crampon::app {
 
-enum ExitCode { exit_ok = 0, exit_check_missed = 1, exit_input_error = 2, exit_run_stopped = 3, exit_system_error = 4, exit_interrupted = 130 };
+enum ExitCode {
+  exit_ok = 0,
+  exit_check_missed = 1,
+  exit_input_error = 2,
+  exit_run_stopped = 3,
+  exit_system_error = 4,
+  exit_interrupted = 130
+};
 
 /// What was asked for cannot be done as asked. Exit code 2.
 class UsageError : public std::runtime_error {
@@ -51,14 +58,14 @@ int info_command(const InfoArguments& arguments);
 struct DrawArguments {
   std::string results;
   std::string quantity;
-  std::vector<int> frames;        ///< negative: from the end
+  std::vector<int> frames;  ///< negative: from the end
   std::vector<std::string> times;
   bool all = false;
-  std::string panel;              ///< "2x3"; empty: one picture per moment
+  std::string panel;  ///< "2x3"; empty: one picture per moment
   double magnify = 1;
   std::vector<std::string> range;   ///< two values
   std::vector<std::string> window;  ///< four values
-  std::string palette;            ///< empty: chosen by the quantity
+  std::string palette;              ///< empty: chosen by the quantity
   bool symmetric = false;
   bool fringes = false;
   std::optional<double> fringe_constant;  ///< 1/MPa

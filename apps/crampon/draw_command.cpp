@@ -37,8 +37,8 @@ struct Grid {
 Grid panel_grid(const std::string& text) {
   Grid grid;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &grid.rows, &grid.columns, &rest) != 2 || grid.rows < 1 || grid.columns < 1 ||
-      grid.rows > 20 || grid.columns > 20)
+  if (std::sscanf(text.c_str(), "%dx%d%c", &grid.rows, &grid.columns, &rest) != 2 || grid.rows < 1 || grid.columns < 1 || grid.rows > 20 ||
+      grid.columns > 20)
     throw UsageError(fmt::format("--panel {}: rows and columns are wanted, such as 2x3 (at most 20x20)", text));
   return grid;
 }
@@ -131,7 +131,8 @@ Moment read_moment(const ResultsFolder& folder, const PvdEntry& entry, const std
 }
 
 /// One colour range for a whole series, so that its pictures can be compared: found frame by frame, as all of them may not fit in memory.
-void fix_range(DrawOptions& options, const ResultsFolder& folder, const std::vector<PvdEntry>& frames, const std::vector<std::size_t>& chosen) {
+void fix_range(DrawOptions& options, const ResultsFolder& folder, const std::vector<PvdEntry>& frames,
+               const std::vector<std::size_t>& chosen) {
   if (chosen.size() < 2 || options.quantity == "fringes" || (options.lowest && options.highest)) return;
   double lowest = INFINITY, highest = -INFINITY;
   for (const std::size_t i : chosen) {
@@ -160,8 +161,8 @@ void draw_pictures(const DrawArguments& arguments, const ResultsFolder& folder, 
     std::deque<Moment> moments;
     std::vector<Snapshot> snapshots;
     for (const std::size_t i : chosen) snapshots.push_back(moments.emplace_back(read_moment(folder, frames[i], cracks)).snapshot());
-    const fs::path file = prepared(arguments.output.empty() ? folder.path() / "pictures" / (options.quantity + "_panel.png")
-                                                            : fs::path(arguments.output));
+    const fs::path file =
+        prepared(arguments.output.empty() ? folder.path() / "pictures" / (options.quantity + "_panel.png") : fs::path(arguments.output));
     draw_panel(snapshots, options, file);
     made(file);
     return;

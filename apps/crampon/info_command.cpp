@@ -28,7 +28,8 @@ void print_record(const RunRecord& record) {
   line("particles", count_text(static_cast<double>(record.particles)));
   line("steps", fmt::format("{}, the first of {:.6g} s", count_text(static_cast<double>(record.steps)), record.time_step));
   line("end time", fmt::format("{:.6g} s", record.end_time));
-  line("wall time", fmt::format("{} with {} threads (CPU {})", duration_text(record.wall_seconds), record.threads, duration_text(record.cpu_seconds)));
+  line("wall time",
+       fmt::format("{} with {} threads (CPU {})", duration_text(record.wall_seconds), record.threads, duration_text(record.cpu_seconds)));
   line("speed", fmt::format("{:.3g} million particle-steps per second", record.particle_steps_per_second * 1e-6));
   line("peak memory", bytes_text(record.peak_memory_bytes));
   line("state hash", fmt::format("{:016x}", record.state_hash));
@@ -47,7 +48,8 @@ int info_command(const InfoArguments& arguments) {
   const ResultsFolder folder = ResultsFolder::open(arguments.results);
   const RunRecord record = read_run_record(folder.run_record());
   if (arguments.hash) {
-    if (record.status == "running") throw UsageError(fmt::format("{}: the run has not ended in order; there is no final state", arguments.results));
+    if (record.status == "running")
+      throw UsageError(fmt::format("{}: the run has not ended in order; there is no final state", arguments.results));
     fmt::print("{:016x}\n", record.state_hash);
     return exit_ok;
   }

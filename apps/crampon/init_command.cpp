@@ -35,7 +35,8 @@ int init_command(const InitArguments& arguments) {
       return exit_ok;
     }
     const std::string file = arguments.output.empty() ? arguments.name + ".toml" : arguments.output;
-    if (std::filesystem::exists(file) && !arguments.force) throw UsageError(fmt::format("{}: the file exists; choose another with -o or say --force", file));
+    if (std::filesystem::exists(file) && !arguments.force)
+      throw UsageError(fmt::format("{}: the file exists; choose another with -o or say --force", file));
     write_file(file, each.text);
     fmt::print("wrote {}; run it with: {} run {}\n", file, command_name(), file);
     return exit_ok;

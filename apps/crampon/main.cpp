@@ -29,7 +29,8 @@ int explain_error() {
   } catch (const InputError& error) {
     for (const Diagnostic& diagnostic : error.diagnostics()) fmt::print(stderr, "{}\n", diagnostic.text());
     const std::size_t count = error.diagnostics().size();
-    return fail(exit_input_error, fmt::format("{} in the input; nothing was written", count == 1 ? "an error" : fmt::format("{} errors", count)));
+    return fail(exit_input_error,
+                fmt::format("{} in the input; nothing was written", count == 1 ? "an error" : fmt::format("{} errors", count)));
   } catch (const UsageError& error) {
     return fail(exit_input_error, error.what());
   } catch (const ResultsExist& error) {

@@ -99,7 +99,8 @@ int run_command(const RunArguments& arguments) {
     case RunOutcome::End::interrupted:
       fmt::print(stderr, "crampon: interrupted at t = {:.6g} s; the state there is the last frame\n", outcome.record.end_time);
       return exit_interrupted;
-    default: return exit_ok;
+    default:
+      return exit_ok;
   }
 }
 

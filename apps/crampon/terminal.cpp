@@ -16,11 +16,21 @@ std::string styled(std::FILE* stream, Style style, std::string_view text) {
   if (!is_terminal(stream) || (no_color != nullptr && *no_color != '\0')) return std::string(text);
   const char* code = "0";
   switch (style) {
-    case Style::bold: code = "1"; break;
-    case Style::red: code = "31"; break;
-    case Style::green: code = "32"; break;
-    case Style::yellow: code = "33"; break;
-    case Style::faint: code = "2"; break;
+    case Style::bold:
+      code = "1";
+      break;
+    case Style::red:
+      code = "31";
+      break;
+    case Style::green:
+      code = "32";
+      break;
+    case Style::yellow:
+      code = "33";
+      break;
+    case Style::faint:
+      code = "2";
+      break;
   }
   return fmt::format("\x1b[{}m{}\x1b[0m", code, text);
 }

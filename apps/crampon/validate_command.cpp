@@ -34,8 +34,8 @@ int validate_command(const ValidateArguments& arguments) {
     fmt::print(stderr, "{} {}\n", styled(stderr, Style::red, "crampon: the run would stop:"), estimate.stopped);
     return exit_run_stopped;
   }
-  line("expected time", fmt::format("{} with {} thread{}, output apart ({} steps measured, {} each)", duration_text(estimate.seconds), threads,
-                                    threads == 1 ? "" : "s", estimate.steps_measured, duration_text(estimate.seconds_per_step)));
+  line("expected time", fmt::format("{} with {} thread{}, output apart ({} steps measured, {} each)", duration_text(estimate.seconds),
+                                    threads, threads == 1 ? "" : "s", estimate.steps_measured, duration_text(estimate.seconds_per_step)));
   return exit_ok;
 }
 

@@ -247,11 +247,11 @@ def mirror_symmetry():
 
 @check
 def consistent_contact_gains_no_energy():
-    """contact-consistency.md: E_end/E_0 <= 1.002 with the default scheme, and the literal one is worse for crossed cracks."""
+    """contact-consistency.md: E_end/E_0 <= 1.002 with the default scheme and no loads."""
     for case in list(cases.closing_cases()) + list(cases.crossing_cases()):
         if case.get("contact", {}).get("scheme") == "literal" or case.get("stress_update", "usavg") != "usavg":
             continue
-        model = cramp.Model(case)
+        model = cramp.Model(dict(case, loads=[]))
         start = model.kinetic_energy() + model.strain_energy()
         for _ in range(case["steps"]):
             model.step()

@@ -300,7 +300,7 @@ TEST(Fuzz, MutatedInputsGiveAProblemOrAnInputError) {
           text.erase(at, text.find('\n', at) - at);
           break;
       }
-      if (text.empty()) text = "\n";
+      if (text.empty()) text.push_back('\n');
     }
     try {
       const Problem p = read_problem_text(text, "in.toml", folder);

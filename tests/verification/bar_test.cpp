@@ -22,7 +22,7 @@ origin = [-0.8, 0{}]
 size = [1.6, 0.04{}]
 cell = 0.01
 [time]
-end = 1.4e-4
+end = 1.6e-4
 courant = 0.4
 [method]
 shape_functions = "{}"
@@ -40,41 +40,44 @@ velocity = [{{ expression = "{}" }}, 0{}]
 [[probe]]
 name = "near"
 quantity = "{}"
-point = [0.2, 0.02{}]
+point = [0.2525, 0.0225{}]
 [[probe]]
 name = "far"
 quantity = "{}"
-point = [{}, 0.02{}]
+point = [{}, 0.0225{}]
 )toml",
                      three_dimensional ? "three_dimensional" : "plane_strain", third(", 0"), third(", 0.04"), shape_functions,
                      three_dimensional ? "box" : "rectangle", third(", 0.01"), third(", 0.03"), velocity, third(", 0"), quantity,
-                     third(", 0.02"), quantity, far, third(", 0.02"));
+                     third(", 0.0225"), quantity, far, third(", 0.0225"));
 }
 
 class Bar : public testing::TestWithParam<std::tuple<bool, const char*>> {};
 
-/// Row 44, speed: the halves of a smooth pulse run apart at sqrt(E/rho). (A sharp front is spread by the grid: its middle lags.)
+/// Row 44, speed: the halves of a pulse of ten cells run apart at sqrt(E/rho). (Sharper ones are spread by the grid and lag: a front by 3 %.)
 TEST_P(Bar, PulseRunsAtTheWaveSpeed) {
   const auto [three_dimensional, shape] = GetParam();
-  const auto simulation = make(steel_bar(three_dimensional, shape, "exp(-(x/0.1)^2)", "velocity", 0.5));
+  const auto simulation = make(steel_bar(three_dimensional, shape, "exp(-(x/0.1)^2)", "displacement", 0.5525));
   std::vector<double> t, near, far;
   run(*simulation, [&](Simulation& s) {
     t.push_back(s.time());
-    near.push_back(value(s, "near.velocity_x"));
-    far.push_back(value(s, "far.velocity_x"));
+    near.push_back(value(s, "near.displacement_x"));
+    far.push_back(value(s, "far.displacement_x"));
   });
-  const auto peak = [&](const std::vector<double>& v) {
-    const auto i = static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
-    const double a = v[i - 1], b = v[i], c = v[i + 1];
-    return t[i] + 0.5 * (a - c) / (a - 2 * b + c) * (t[i + 1] - t[i]);
+  // A pulse has passed half when the particle has gone half its way; its velocity is too noisy to tell.
+  const auto passage = [&](const std::vector<double>& u) {
+    const double half = 0.5 * u.back();
+    std::size_t i = 1;
+    while (u[i] < half) ++i;
+    return t[i - 1] + (half - u[i - 1]) / (u[i] - u[i - 1]) * (t[i] - t[i - 1]);
   };
-  EXPECT_NEAR(0.3 / (peak(far) - peak(near)), steel_speed, 0.005 * steel_speed);  // the row's tolerance
+  const double distance = 0.3;
+  EXPECT_NEAR(distance / (passage(far) - passage(near)), steel_speed, 0.005 * steel_speed);  // the row's tolerance
 }
 
 /// Row 44, plateau: the halves of the bar run into each other at 1 m/s each; behind the front rho c v = 39.62 MPa.
 TEST_P(Bar, ImpactLeavesThePlateauBehind) {
   const auto [three_dimensional, shape] = GetParam();
-  const auto simulation = make(steel_bar(three_dimensional, shape, "(x<0)-(x>0)", "stress", 0.1));
+  const auto simulation = make(steel_bar(three_dimensional, shape, "(x<0)-(x>0)", "stress", 0.1025));
   double mean = 0;
   int count = 0;
   run(*simulation, [&](Simulation& s) {

@@ -126,7 +126,7 @@ class Declaration : public Record {
                       std::string help, Presence presence = {}) {
     Entry e = entry(Kind::record, std::move(key), std::move(help), presence);
     e.record = [declaration]() -> const Record& { return declaration(); };
-    e.emplace = [m](void* o) -> void* { return &(of(o).*m = Sub{}); };
+    e.emplace = [m](void* o) -> void* { return &(of(o).*m); };
     e.parts = [m](const void* o) { return std::vector<const void*>{&(of(o).*m)}; };
     return add(std::move(e));
   }

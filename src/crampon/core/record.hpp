@@ -122,7 +122,7 @@ struct Entry {
   std::function<void(void* object, const EntryValue&)> set;
   std::function<EntryValue(const void* object)> get;
   std::function<const Record&()> record;
-  std::function<void*(void* object)> emplace;                         ///< makes the member's (next) sub-record, default constructed
+  std::function<void*(void* object)> emplace;                         ///< the member's sub-record; in lists and optionals a new one
   std::function<std::vector<const void*>(const void* object)> parts;  ///< sub-records or family values that the member holds
   std::function<const AnyFamily&()> family;
   std::function<void(void* object, const std::any&)> assign;  ///< takes (or appends) what an alternative built

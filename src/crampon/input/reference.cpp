@@ -51,6 +51,7 @@ class PageWriter {
         "brackets.\n"
         "- A key that is not listed here is an error.\n";
     section(2, "Top level", root);
+    at_top_ = false;
     // Tables and families are mentioned on the way, also by each other.
     std::size_t records = 0, families = 0;
     while (records < records_.size() || families < families_.size()) {
@@ -72,6 +73,7 @@ class PageWriter {
     const Record* record;
   };
   std::string out_;
+  bool at_top_ = true;
   std::vector<Part> records_;
   std::vector<const AnyFamily*> families_;
 
@@ -79,6 +81,11 @@ class PageWriter {
     std::string heading = family.name();
     heading.front() = static_cast<char>(std::toupper(heading.front()));
     return heading + " family";
+  }
+
+  // Only tables of the top level are written with their brackets alone.
+  std::string heading_of(const char* open, const Entry& entry, const char* close) const {
+    return at_top_ ? code(open + entry.key + close) : code(entry.key);
   }
 
   std::string mention(const Entry& entry, const std::string& heading) {
@@ -142,9 +149,9 @@ class PageWriter {
       case Kind::functions:
         return "list of functions";
       case Kind::record:
-        return link("table", mention(entry, code("[" + entry.key + "]")));
+        return link("table", mention(entry, heading_of("[", entry, "]")));
       case Kind::records:
-        return link("array of tables", mention(entry, code("[[" + entry.key + "]]")));
+        return link("array of tables", mention(entry, heading_of("[[", entry, "]]")));
       case Kind::one_of:
         return link(entry.family().name(), mention(entry.family()));
       case Kind::one_of_list:

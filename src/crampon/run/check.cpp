@@ -63,10 +63,14 @@ struct Measured {
 
 double statistic_of(const HistoryStatistics& all, Statistic statistic) {
   switch (statistic) {
-    case Statistic::minimum: return all.minimum;
-    case Statistic::maximum: return all.maximum;
-    case Statistic::mean: return all.mean;
-    default: return all.spread;
+    case Statistic::minimum:
+      return all.minimum;
+    case Statistic::maximum:
+      return all.maximum;
+    case Statistic::mean:
+      return all.mean;
+    default:
+      return all.spread;
   }
 }
 
@@ -123,11 +127,20 @@ Measured measure_particles(Results& results, const ExpectInput& expect) {
 std::string figure_text(const ExpectInput& expect) {
   std::string text;
   switch (expect.statistic) {
-    case Statistic::value: break;
-    case Statistic::minimum: text = "minimum of "; break;
-    case Statistic::maximum: text = "maximum of "; break;
-    case Statistic::mean: text = "mean of "; break;
-    case Statistic::spread: text = "spread of "; break;
+    case Statistic::value:
+      break;
+    case Statistic::minimum:
+      text = "minimum of ";
+      break;
+    case Statistic::maximum:
+      text = "maximum of ";
+      break;
+    case Statistic::mean:
+      text = "mean of ";
+      break;
+    case Statistic::spread:
+      text = "spread of ";
+      break;
   }
   text += expect.column ? *expect.column : expect.quantity.value_or("");
   if (!expect.point.empty()) text += fmt::format(" at ({:g})", fmt::join(expect.point, ", "));
@@ -182,8 +195,8 @@ std::string check_table(const std::vector<CheckRow>& rows) {
   std::vector<std::vector<std::string>> cells{{"verdict", "name", "measured", "expected", "tolerance", "unit", "what", "source"}};
   for (const CheckRow& row : rows) {
     const char* verdict = row.verdict == Verdict::met ? "met" : row.verdict == Verdict::missed ? "MISSED" : "NOT REACHED";
-    cells.push_back({verdict, row.name, number(row.measured), number(row.expected), number(row.tolerance),
-                     row.unit, row.figure, row.source});
+    cells.push_back(
+        {verdict, row.name, number(row.measured), number(row.expected), number(row.tolerance), row.unit, row.figure, row.source});
   }
   std::string text;
   for (const std::vector<std::string>& line : cells) {

@@ -124,9 +124,10 @@ void check_against_simulation(const Problem& problem, const Simulation& simulati
                        suggest_from(*expect.column, columns)});
   for (const std::string& name : problem.output.quantities)
     if (!known(quantities, name))
-      found.push_back({problem.output.at("quantities"), fmt::format("particles have no quantity \"{}\"", name), "",
-                       suggest_from(name, quantities)});
-  const bool of_particles = std::any_of(problem.expects.begin(), problem.expects.end(), [](const ExpectInput& e) { return e.quantity.has_value(); });
+      found.push_back(
+          {problem.output.at("quantities"), fmt::format("particles have no quantity \"{}\"", name), "", suggest_from(name, quantities)});
+  const bool of_particles =
+      std::any_of(problem.expects.begin(), problem.expects.end(), [](const ExpectInput& e) { return e.quantity.has_value(); });
   if (found.empty() && of_particles) {
     const PointFrame frame = simulation.particles(problem.output.quantities);
     for (const ExpectInput& expect : problem.expects) try {
@@ -183,7 +184,8 @@ RunOutcome run_problem(const Problem& problem, Simulation& simulation, const Run
       // A sum of a million time steps is off by less than this part of one.
       recorder.record_step(1e-6 * (simulation.time() - before));
       if (options.progress)
-        options.progress({simulation.steps_done(), record.particles, simulation.time(), simulation.end_time(), stepping + recorder.seconds()});
+        options.progress(
+            {simulation.steps_done(), record.particles, simulation.time(), simulation.end_time(), stepping + recorder.seconds()});
     }
     if (outcome.end == RunOutcome::End::stopped)
       recorder.record_wreck();

@@ -27,7 +27,7 @@ struct RunOptions {
   int threads = 1;    ///< for the record: the simulation was created with it
   std::string input;  ///< name of the input file, for the record
   std::function<void(const Progress&)> progress;
-  std::optional<std::int64_t> most_steps;  ///< end earlier than the input says, to try it
+  std::optional<std::int64_t> most_steps;        ///< end earlier than the input says, to try it
   const std::atomic<bool>* interrupt = nullptr;  ///< set from outside (Ctrl-C): the run ends in order after the present step
 };
 

@@ -24,8 +24,8 @@ class FrameSchedule {
  private:
   double next_regular() const { return every_ > 0 ? (count_ + 1) * every_ : std::numeric_limits<double>::infinity(); }
 
-  double every_ = 0;  // s; 0: not by time
-  double count_ = 0;  // intervals done, a whole number
+  double every_ = 0;              // s; 0: not by time
+  double count_ = 0;              // intervals done, a whole number
   std::int64_t every_steps_ = 0;  // 0: not by steps
   std::vector<double> times_;     // ascending
   std::size_t next_listed_ = 0;
