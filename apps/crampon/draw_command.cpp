@@ -160,6 +160,7 @@ void draw_pictures(const DrawArguments& arguments, const ResultsFolder& folder, 
   if (!arguments.panel.empty()) {
     std::deque<Moment> moments;
     std::vector<Snapshot> snapshots;
+    snapshots.reserve(chosen.size());
     for (const std::size_t i : chosen) snapshots.push_back(moments.emplace_back(read_moment(folder, frames[i], cracks)).snapshot());
     const fs::path file =
         prepared(arguments.output.empty() ? folder.path() / "pictures" / (options.quantity + "_panel.png") : fs::path(arguments.output));

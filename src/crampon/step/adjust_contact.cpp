@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "crampon/step/boundary.hpp"
 
@@ -182,6 +183,10 @@ class NodeFinder {
         pair.gap = dot(sums_[pair.b].x * (1 / b.m) - sums_[pair.a].x * (1 / a.m), crack->n) -
                    dot(sums_[pair.b].X * (1 / b.m) - sums_[pair.a].X * (1 / a.m), crack->N);
         pair.volume_ratio = volume / reference;
+        if (model_.contact.detection == ContactDetection::volume && model_.contact.scheme == ContactScheme::consistent) {
+          // The lagged scheme asks for a gap: by volume there is one, of unknown size, below V_sep, and none above.
+          pair.gap = pair.volume_ratio < model_.contact.volume_separated ? std::numeric_limits<double>::max() : 0.;
+        }
         pair.previous = previous_state(contact.number, pair);
         out_.pairs.push_back(pair);
       }

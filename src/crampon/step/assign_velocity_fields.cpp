@@ -76,13 +76,15 @@ class BlockAssignment {
     layers_.special.assign(end_pack - first_pack, -1);
     std::int32_t count = 0;
     Stencil<Dim, Shape> stencil;
+    const Run* run = &state_.blocks.runs[block_.first_run];
     for (std::uint32_t k = first_pack; k < end_pack; ++k) {
+      while (k >= run->end_pack) ++run;
       Pack x[Dim];
       state_.particles.pack_positions(k, x);
       bool special = false;
       for (int l = 0; l < lanes && !special; ++l) special = near_something(x, l);
       if (!special) continue;
-      stencil.compute(x, model_.grid, first, HalfSize<Dim>{fill_half()});
+      stencil.compute(x, model_.grid, first, model_.materials[run->material].half_size);
       layers_.special[k - first_pack] = count++;
       for (int l = 0; l < lanes; ++l) assign(stencil, x, l, state_.particles.is_padding(std::size_t{k} * lanes + l));
     }
@@ -92,11 +94,6 @@ class BlockAssignment {
   }
 
  private:
-  static HalfSize<Dim> fill_half() {
-    HalfSize<Dim> h;
-    h.fill(0.25);  // only base nodes are used here, and they do not depend on it
-    return h;
-  }
   IndexVector<Dim> cell_of(const Pack* x, int l) const {
     IndexVector<Dim> cell{};
     for (int k = 0; k < Dim; ++k) {
@@ -133,7 +130,7 @@ class BlockAssignment {
       fold(x_p, node, x_i[n], target[n]);
     }
     if constexpr (Dim == 2) {
-      if (!view_.bins.empty()) cross(x, l, x_p, x_i, target, signature, padding);
+      if (!view_.bins.empty()) cross(stencil, x, l, x_p, x_i, target, signature, padding);
     }
     for (int n = 0; n < T::stencil; ++n) {
       if (!signature[n].empty()) {
@@ -158,7 +155,7 @@ class BlockAssignment {
     }
   }
 
-  void cross(const Pack* x, int l, const Vec<2>& x_p, const std::array<Vec<2>, T::stencil>& x_i,
+  void cross(const Stencil<Dim, Shape>& stencil, const Pack* x, int l, const Vec<2>& x_p, const std::array<Vec<2>, T::stencil>& x_i,
              const std::array<PairTarget, T::stencil>& target, std::array<Signature, T::stencil>& signature, bool padding) {
     const auto cell = cell_of(x, l);
     const auto facets = view_.bins.facets_of_cell(cell[0], cell[1]);
@@ -169,7 +166,8 @@ class BlockAssignment {
       while (f < facets.size() && facets[f].crack == c) ++f;
       cross_stencil(view_.paths[c], facets.subspan(first, f - first), x_p, x_i, crossings);
       for (int n = 0; n < T::stencil; ++n) {
-        if (!crossings[n].crosses()) continue;
+        // A corner of the stencil that the particle does not reach (uGIMP) is no pair.
+        if (!crossings[n].crosses() || stencil.S[n][l] == 0) continue;
         fits_ = signature[n].append(c) && fits_;
         // Padding follows the particle it sits on, but is not a pair of its own.
         if (!padding) add_crossing(c, target[n].node, crossings[n]);
