@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # clang-tidy 14 on the sources that changed: against the merge base with the main branch, else the last commit, else
 # (a shallow clone of one commit) on all. --all takes all sources. A changed header brings the sources that include it directly.
+# Without --all no further file is begun after CRAMPON_TIDY_MINUTES (6), and what was left out is said: a change of everything
+# would take longer than all tests together.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 folder=build/release
@@ -22,7 +24,7 @@ if [ -n "$base" ]; then
   changed=$({ git diff --name-only --diff-filter=d "$base" -- '*.cpp' '*.hpp'; git ls-files -o --exclude-standard -- '*.cpp' '*.hpp'; } | sort -u)
   files=$({
     grep '\.cpp$' <<<"$changed" || true
-    grep '\.hpp$' <<<"$changed" | sed 's|^src/||; s|^tests/||' | while read -r header; do
+    for header in $(grep '\.hpp$' <<<"$changed" | sed 's|^src/||; s|^tests/||'); do
       sources | xargs grep -lF "#include \"$header\"" || true
     done
   } | sort -u)
@@ -36,5 +38,9 @@ files=$(for file in $files; do
 done)
 [ -n "$files" ] || { echo "no changed source"; exit 0; }
 echo "$(wc -w <<<"$files") files"
-# g++ flags that clang does not know are none of its business.
-xargs -P "$(nproc)" -n 1 clang-tidy-14 --quiet -p "$folder" --extra-arg=-Wno-unknown-warning-option <<<"$files" 2> >(grep -v 'warnings generated' >&2)
+deadline=$(($(date +%s) + 60 * ${CRAMPON_TIDY_MINUTES:-6}))
+[ "${1:-}" = --all ] && deadline=$(($(date +%s) + 86400))
+check_one='
+  if [ "$(date +%s)" -ge "$0" ]; then echo "left out (time is up): $2"; exit 0; fi
+  exec clang-tidy-14 --quiet -p "$1" --extra-arg=-Wno-unknown-warning-option "$2"'  # g++ flags are unknown to clang
+xargs -P "$(nproc)" -n 1 bash -c "$check_one" "$deadline" "$folder" <<<"$files" 2> >(grep -v 'warnings generated' >&2)

@@ -349,6 +349,8 @@ class Model:
             crack.upper, crack.lower = upper, lower
             if not crack.fixed:
                 crack.plane = plane
+                if crack.law != "none":
+                    self.keep_sides(crack)
 
     def moved(self, points, velocities):
         return [(x[0] + self.dt * v[0], x[1] + self.dt * v[1]) for x, v in zip(points, velocities)]
@@ -367,25 +369,40 @@ class Model:
                     v[k] += R[k] * S * momentum[target][k] / mass[target]
         return None if weight == 0 else (v[0] / weight, v[1] / weight)
 
-    def side_average(self, crack, k, point, up):
-        """v = sum m S v / sum m S over the fields a point just off the crack on its own side looks at (fracture.md 6.4)."""
+    @staticmethod
+    def vertex_normal(plane, k):
+        """Unit normal at a vertex, from above to below: the mean of the segments that meet there."""
         n = [0.0, 0.0]
         for segment in (k - 1, k):
-            if 0 <= segment < len(crack.plane) - 1:
-                s = segment_normal(crack.plane, segment)
+            if 0 <= segment < len(plane) - 1:
+                s = segment_normal(plane, segment)
                 n = [n[0] + s[0], n[1] + s[1]]
         length = math.hypot(*n)
-        nudged = [point[c] - up * 1e-8 * self.grid.h * n[c] / length for c in range(2)]
+        return n[0] / length, n[1] / length
+
+    def side_average(self, crack, k, point, up):
+        """v = sum S v / sum S over the fields that the plane's vertex, just off the plane on this side, looks at."""
+        n = self.vertex_normal(crack.plane, k)
+        vertex = [crack.plane[k][c] - up * 1e-8 * self.grid.h * n[c] for c in range(2)]
         weight, v = 0.0, [0.0, 0.0]
-        for node, S, _ in self.shape_at(nudged):
-            signature, _ = self.crossings(nudged, self.grid.position(node))
-            target, R, _ = self.fold(nudged, node)
+        for node, S, _ in self.shape_at(point):
+            signature, _ = self.crossings(vertex, self.grid.position(node))
+            target, R, _ = self.fold(vertex, node)
             key = (target, signature)
             if key in self.m:
-                weight += self.m[key] * S
+                weight += S
                 for c in range(2):
-                    v[c] += R[c] * S * self.p[key][c]
+                    v[c] += R[c] * S * self.p[key][c] / self.m[key]
         return None if weight == 0 else (v[0] / weight, v[1] / weight)
+
+    def keep_sides(self, crack):
+        """Surface points of faces that can touch do not stay beyond the plane between them (fracture.md 6.4, no plane crossing)."""
+        for k, x in enumerate(crack.plane):
+            n = self.vertex_normal(crack.plane, k)
+            for points, side in ((crack.upper, 1), (crack.lower, -1)):
+                beyond = side * sum((points[k][c] - x[c]) * n[c] for c in range(2))
+                if beyond > 0:
+                    points[k] = tuple(points[k][c] - side * beyond * n[c] for c in range(2))
 
     @staticmethod
     def fill(velocities):
