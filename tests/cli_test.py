@@ -275,6 +275,14 @@ class CliTest(unittest.TestCase):
         self.assertIn("--force", self.call("init", "block", code=2)[1])
         self.call("init", "block", "--force")
 
+    def test_every_example_runs_for_a_few_steps(self):
+        inputs = sorted((pathlib.Path(__file__).resolve().parent.parent / "examples").rglob("*.toml"))
+        self.assertTrue(inputs)
+        for path in inputs:
+            with self.subTest(path.name):
+                self.call("run", str(path), "-q", "--steps", "20", "-o", path.stem)
+                self.call("check", path.stem, "--partial")
+
     def test_schema_and_reference(self):
         schema = json.loads(self.call("schema")[0])
         self.assertIn("grid", schema["properties"])

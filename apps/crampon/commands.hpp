@@ -70,6 +70,7 @@ struct DrawArguments {
   bool fringes = false;
   std::optional<double> fringe_constant;  ///< 1/MPa
   std::vector<std::string> history;
+  std::vector<std::string> compare;  ///< further results folders whose histories join the plot
   std::optional<std::string> title;  ///< else the run's
   int width = 1200;
   std::string output;

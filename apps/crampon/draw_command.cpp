@@ -112,7 +112,19 @@ void plot(const DrawArguments& arguments, const ResultsFolder& folder, const std
   options.width = arguments.width;
   options.height = arguments.width * 3 / 5;
   const fs::path file = prepared(arguments.output.empty() ? folder.path() / "pictures" / "history.png" : fs::path(arguments.output));
-  plot_history(read_history(folder.history()), arguments.history, options, file);
+  std::vector<fs::path> folders = {folder.path()};
+  folders.insert(folders.end(), arguments.compare.begin(), arguments.compare.end());
+  std::vector<History> histories;
+  for (const fs::path& path : folders) histories.push_back(read_history(ResultsFolder::open(path).history()));
+  std::vector<HistoryCurve> curves;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    for (const std::string& column : arguments.history) {
+      const std::string run = (folders[i].has_filename() ? folders[i] : folders[i].parent_path()).stem().string();
+      const std::string label = folders.size() == 1 ? column : arguments.history.size() == 1 ? run : run + ", " + column;
+      curves.push_back({&histories[i], column, label});
+    }
+  }
+  plot_history(curves, options, file);
   made(file);
 }
 
