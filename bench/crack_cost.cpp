@@ -58,13 +58,16 @@ double cpu_seconds() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::map<std::string, std::string> option = {{"--particles", "400000"}, {"--steps", "40"}, {"--threads", "1"}, {"--shape", "linear"}, {"--update", "usf"}};
+  std::map<std::string, std::string> option = {
+      {"--particles", "400000"}, {"--steps", "40"}, {"--threads", "1"}, {"--shape", "linear"}, {"--update", "usf"}};
   for (int i = 1; i + 1 < argc; i += 2) option[argv[i]] = argv[i + 1];
-  const int cells = static_cast<int>(std::lround(std::sqrt(std::stod(option["--particles"]) / 4))) + 4, steps = std::stoi(option["--steps"]);
+  const int cells = static_cast<int>(std::lround(std::sqrt(std::stod(option["--particles"]) / 4))) + 4,
+            steps = std::stoi(option["--steps"]);
   const double W = cells - 4;
 
   std::string twenty;
-  for (int k = 0; k < 20; ++k) twenty += crack(2 + W * (0.05 + 0.24 * (k % 4)), 2 + W * (0.15 + 0.24 * (k % 4)), 2.3 + W * (0.1 + 0.2 * (k / 4)));
+  for (int k = 0; k < 20; ++k)
+    twenty += crack(2 + W * (0.05 + 0.24 * (k % 4)), 2 + W * (0.15 + 0.24 * (k % 4)), 2.3 + W * (0.1 + 0.2 * (k / 4)));
   struct Case {
     const char* name;
     std::string cracks;
@@ -76,8 +79,8 @@ int main(int argc, char** argv) {
   cases.push_back({"one crack of half the width", crack(2 + 0.25 * W, 2 + 0.75 * W, 2.3 + 0.5 * W), nullptr, {}});
   cases.push_back({"twenty cracks of a tenth", twenty, nullptr, {}});
   for (Case& c : cases) {
-    c.simulation = crampon::Simulation::create(crampon::read_problem_text(block(cells, option["--shape"], option["--update"], c.cracks), "bench"),
-                                               std::stoi(option["--threads"]));
+    c.simulation = crampon::Simulation::create(
+        crampon::read_problem_text(block(cells, option["--shape"], option["--update"], c.cracks), "bench"), std::stoi(option["--threads"]));
     c.simulation->step(HUGE_VAL);  // sorts the particles
   }
   for (int s = 0; s < steps; ++s) {
@@ -92,8 +95,8 @@ int main(int argc, char** argv) {
     return v[v.size() / 2];
   };
   const double particles = static_cast<double>(cases[0].simulation->size().particles), base = median(cases[0].seconds);
-  fmt::print("{:.0f} particles, {} shape functions, {}, {} thread(s), {} steps of each in turns\n\n", particles, option["--shape"], option["--update"],
-             option["--threads"], steps);
+  fmt::print("{:.0f} particles, {} shape functions, {}, {} thread(s), {} steps of each in turns\n\n", particles, option["--shape"],
+             option["--update"], option["--threads"], steps);
   fmt::print("| case | CPU ns per particle-step, median (least) | ratio of medians |\n|---|---|---|\n");
   for (const Case& c : cases) {
     fmt::print("| {} | {:.1f} ({:.1f}) | {:.3f} |\n", c.name, median(c.seconds) / particles * 1e9,

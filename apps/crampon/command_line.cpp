@@ -117,7 +117,9 @@ int run_command_line(int argc, const char* const* argv) {
   sub->add_flag("--fringes", draw.fringes, "photoelastic fringes (N03 Eq. 23), in grey");
   sub->add_option("--fringe-constant", draw.fringe_constant, "k_f of the fringes, 1/MPa; left out: 0.0889")->type_name("K");
   sub->add_option("--history", draw.history, "plot these columns of history.csv over time instead")->type_name("COLUMN")->expected(1, -1);
-  sub->add_option("--compare", draw.compare, "with --history: the same columns of these results in the same plot")->type_name("RESULTS")->expected(1, -1);
+  sub->add_option("--compare", draw.compare, "with --history: the same columns of these results in the same plot")
+      ->type_name("RESULTS")
+      ->expected(1, -1);
   sub->add_option("--title", draw.title, "left out: the run's")->type_name("TEXT");
   sub->add_option("--width", draw.width, "of the picture, px")->type_name("PX")->check(CLI::Range(200, 10000));
   sub->add_option("-o,--output", draw.output, "PNG file (a folder when there are several pictures); left out: in RESULTS/pictures")

@@ -12,13 +12,15 @@ namespace {
 struct PatchCase {
   const char* stress_update;
   const char* shape_functions;
-  double tip_mm;    ///< distance of the tip from the loaded end
-  bool from_right;  ///< the crack enters from the right
-  bool turned;      ///< the whole problem turned by 90 degrees
-  double vertex_mm; ///< spacing of the crack's vertices
+  double tip_mm;     ///< distance of the tip from the loaded end
+  bool from_right;   ///< the crack enters from the right
+  bool turned;       ///< the whole problem turned by 90 degrees
+  double vertex_mm;  ///< spacing of the crack's vertices
 };
 
-void PrintTo(const PatchCase& c, std::ostream* out) { *out << c.stress_update << ", " << c.shape_functions << ", tip at " << c.tip_mm << " mm"; }
+void PrintTo(const PatchCase& c, std::ostream* out) {
+  *out << c.stress_update << ", " << c.shape_functions << ", tip at " << c.tip_mm << " mm";
+}
 
 std::string name_of(const testing::TestParamInfo<PatchCase>& info) {
   const PatchCase& c = info.param;
@@ -35,8 +37,10 @@ struct Placement {
   }
   std::string rectangle(double along0, double across0, double along1, double across1) const {
     const double a0 = c.from_right ? 100 - along1 : along0, a1 = c.from_right ? 100 - along0 : along1;
-    return c.turned ? fmt::format("{{ kind = \"rectangle\", low = [\"{} mm\", \"{} mm\"], high = [\"{} mm\", \"{} mm\"] }}", -across1, a0, -across0, a1)
-                    : fmt::format("{{ kind = \"rectangle\", low = [\"{} mm\", \"{} mm\"], high = [\"{} mm\", \"{} mm\"] }}", a0, across0, a1, across1);
+    return c.turned ? fmt::format("{{ kind = \"rectangle\", low = [\"{} mm\", \"{} mm\"], high = [\"{} mm\", \"{} mm\"] }}", -across1, a0,
+                                  -across0, a1)
+                    : fmt::format("{{ kind = \"rectangle\", low = [\"{} mm\", \"{} mm\"], high = [\"{} mm\", \"{} mm\"] }}", a0, across0,
+                                  a1, across1);
   }
 };
 
@@ -66,17 +70,20 @@ material = "polymer"
 shape = {}
 thickness = "1 mm"
 )",
-                                 c.turned ? R"(["-24 mm", "-6 mm"])" : R"(["-6 mm", "-24 mm"])", c.turned ? R"(["48 mm", "112 mm"])" : R"(["112 mm", "48 mm"])",
-                                 c.stress_update, c.shape_functions, place.rectangle(0, full ? -18 : 0, 100, 18));
+                                 c.turned ? R"(["-24 mm", "-6 mm"])" : R"(["-6 mm", "-24 mm"])",
+                                 c.turned ? R"(["48 mm", "112 mm"])" : R"(["112 mm", "48 mm"])", c.stress_update, c.shape_functions,
+                                 place.rectangle(0, full ? -18 : 0, 100, 18));
   const auto load = [&](const char* name, double across0, double across1, double force) {
     const std::string value = c.turned ? fmt::format("[\"{} mN\", 0]", -force) : fmt::format("[0, \"{} mN\"]", force);
-    text += fmt::format("[[load]]\nname = \"{}\"\nkind = \"total_force\"\nregion = {}\nvalue = {}\n", name, place.rectangle(0, across0, 1, across1), value);
+    text += fmt::format("[[load]]\nname = \"{}\"\nkind = \"total_force\"\nregion = {}\nvalue = {}\n", name,
+                        place.rectangle(0, across0, 1, across1), value);
   };
   load("upper", 0, 18, 0.4);
   if (full) {
     load("lower", -18, 0, -0.4);
-    text += fmt::format("[[crack]]\nname = \"crack\"\npoints = [{}, {}]\nmax_segment = \"{} mm\"\nfixed = true\ncontact = {{ law = \"none\" }}\n",
-                        place.point(-4, 0), place.point(c.tip_mm, 0), c.vertex_mm);
+    text += fmt::format(
+        "[[crack]]\nname = \"crack\"\npoints = [{}, {}]\nmax_segment = \"{} mm\"\nfixed = true\ncontact = {{ law = \"none\" }}\n",
+        place.point(-4, 0), place.point(c.tip_mm, 0), c.vertex_mm);
   } else {
     // The mirror is what the crack is not: from the tip on, away from the loaded end.
     const double tip = c.from_right ? 100 - c.tip_mm : c.tip_mm;
@@ -92,7 +99,9 @@ std::vector<double> upper(const PatchCase& c, const PointFrame& start, const Fie
   std::vector<double> out;
   for (std::size_t i = 0; i < start.positions.size() / 3; ++i) {
     const double across = c.turned ? -start.positions[3 * i] : start.positions[3 * i + 1];
-    if (across > 0) out.insert(out.end(), f.values.begin() + static_cast<long>(i) * f.components, f.values.begin() + static_cast<long>(i + 1) * f.components);
+    if (across > 0)
+      out.insert(out.end(), f.values.begin() + static_cast<long>(i) * f.components,
+                 f.values.begin() + static_cast<long>(i + 1) * f.components);
   }
   return out;
 }
@@ -128,7 +137,7 @@ std::vector<PatchCase> cases() {
     for (const char* update : {"usl", "musl", "usf", "usavg"}) list.push_back({update, shape, 50, false, false, 2});
     list.push_back({"usavg", shape, 51.3, false, false, 2.7});  // tip and vertices off nodes
     list.push_back({"usavg", shape, 50, true, false, 1});
-    list.push_back({"usavg", shape, 51.3, true, false, 54});   // one segment
+    list.push_back({"usavg", shape, 51.3, true, false, 54});  // one segment
     list.push_back({"usavg", shape, 50, false, true, 2});
     list.push_back({"musl", shape, 48.7, true, true, 3.1});
   }

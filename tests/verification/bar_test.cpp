@@ -127,7 +127,7 @@ name = "tip"
 quantity = "velocity"
 point = [1, 0.05]
 )toml",
-                                          5 * period, update, shape));
+                                           5 * period, update, shape));
   const double energy = value(*simulation, "total_energy");
   double low = energy, high = energy, last_t = 0, last_v = value(*simulation, "tip.velocity_x");
   std::vector<double> zeros;

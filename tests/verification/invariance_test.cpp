@@ -73,13 +73,16 @@ struct BondedCase {
   const char* scheme;
   int steps = 60;
 };
-void PrintTo(const BondedCase& c, std::ostream* out) { *out << c.cracks << " cracks, " << c.shape_functions << ", " << c.stress_update << ", " << c.scheme; }
+void PrintTo(const BondedCase& c, std::ostream* out) {
+  *out << c.cracks << " cracks, " << c.shape_functions << ", " << c.stress_update << ", " << c.scheme;
+}
 class Bonded : public testing::TestWithParam<BondedCase> {};
 
 /// Validation row 2 for cracks: one, two and three crossing at a point.
 TEST_P(Bonded, EqualsTheBodyWithoutCracks) {
   const BondedCase& c = GetParam();
-  const std::string method = fmt::format("shape_functions = \"{}\"\nstress_update = \"{}\"\n[contact]\nscheme = \"{}\"", c.shape_functions, c.stress_update, c.scheme);
+  const std::string method = fmt::format("shape_functions = \"{}\"\nstress_update = \"{}\"\n[contact]\nscheme = \"{}\"", c.shape_functions,
+                                         c.stress_update, c.scheme);
   std::string cracks;
   for (int k = 0; k < c.cracks; ++k) cracks += crack(three_crossing[k], "{ law = \"bonded\" }");
   const auto cracked = make(colliding_blocks(cracks, method)), whole = make(colliding_blocks("", method));
@@ -100,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Cracks, Bonded,
                                          BondedCase{3, "linear", "usavg", "consistent"}, BondedCase{3, "linear", "musl", "literal"},
                                          BondedCase{2, "gimp", "usf", "consistent"}, BondedCase{3, "gimp", "usavg", "literal"},
                                          BondedCase{2, "bspline", "usavg", "consistent"}, BondedCase{3, "bspline", "musl", "consistent"},
-                                         BondedCase{2, "linear", "usl", "consistent", 20}  /* USL blows up after 33 steps */));
+                                         BondedCase{2, "linear", "usl", "consistent", 20} /* USL blows up after 33 steps */));
 
 /// Momentum over contact, friction and crossings; there is no outer force.
 TEST(Momentum, IsConservedByContact) {
@@ -118,13 +121,16 @@ TEST(Momentum, IsConservedByContact) {
 
 /// A block with a crack, translated by whole cells and turned by 90 degrees.
 std::string placed(double dx, double dy, bool turned, const char* shape_functions) {
-  const auto point = [&](double x, double y) { return turned ? fmt::format("[{}, {}]", dx - y, dy + x) : fmt::format("[{}, {}]", dx + x, dy + y); };
+  const auto point = [&](double x, double y) {
+    return turned ? fmt::format("[{}, {}]", dx - y, dy + x) : fmt::format("[{}, {}]", dx + x, dy + y);
+  };
   const std::string low = turned ? fmt::format("[{}, {}]", dx - 0.5, dy) : fmt::format("[{}, {}]", dx, dy);
   const std::string high = turned ? fmt::format("[{}, {}]", dx, dy + 0.75) : fmt::format("[{}, {}]", dx + 0.75, dy + 0.5);
   // The velocity field, in the body's own axes: shear that slides and closes the crack.
   const std::string u = "0.3*sin(3*Y)", w = "-0.4*(Y-0.25)*cos(2*X)";
   const auto in_axes = [&](std::string text) {
-    const std::string X = turned ? fmt::format("(y-({}))", dy) : fmt::format("(x-({}))", dx), Y = turned ? fmt::format("(({})-x)", dx) : fmt::format("(y-({}))", dy);
+    const std::string X = turned ? fmt::format("(y-({}))", dy) : fmt::format("(x-({}))", dx),
+                      Y = turned ? fmt::format("(({})-x)", dx) : fmt::format("(y-({}))", dy);
     for (std::size_t i = 0; i < text.size(); ++i) {
       if (text[i] != 'X' && text[i] != 'Y') continue;
       const std::string& r = text[i] == 'X' ? X : Y;
@@ -181,7 +187,9 @@ TEST_P(Placed, TurningByNinetyDegreesTurnsTheResult) {
   run(*turned);
   const PointFrame a = upright->particles(), b = turned->particles();
   // Particles of the turned block are numbered along other axes: match by their places at the start.
-  const auto start = [](const PointFrame& f, std::size_t i, int k) { return f.positions[3 * i + static_cast<std::size_t>(k)] - field(f, "displacement").values[3 * i + static_cast<std::size_t>(k)]; };
+  const auto start = [](const PointFrame& f, std::size_t i, int k) {
+    return f.positions[3 * i + static_cast<std::size_t>(k)] - field(f, "displacement").values[3 * i + static_cast<std::size_t>(k)];
+  };
   std::map<std::pair<long, long>, std::size_t> by_place;
   const std::size_t n = a.positions.size() / 3;
   for (std::size_t i = 0; i < n; ++i) by_place[{std::lround(start(b, i, 1) * 1e6), std::lround(-start(b, i, 0) * 1e6)}] = i;
@@ -191,7 +199,8 @@ TEST_P(Placed, TurningByNinetyDegreesTurnsTheResult) {
     const auto at = by_place.find({std::lround(start(a, i, 0) * 1e6), std::lround(start(a, i, 1) * 1e6)});
     ASSERT_NE(at, by_place.end());
     const std::size_t j = at->second;
-    const auto &va = field(a, "velocity").values, &vb = field(b, "velocity").values, &sa = field(a, "stress").values, &sb = field(b, "stress").values;
+    const auto &va = field(a, "velocity").values, &vb = field(b, "velocity").values, &sa = field(a, "stress").values,
+               &sb = field(b, "stress").values;
     EXPECT_NEAR(va[3 * i], vb[3 * j + 1], 1e-10 * speed);
     EXPECT_NEAR(va[3 * i + 1], -vb[3 * j], 1e-10 * speed);
     EXPECT_NEAR(sa[6 * i], sb[6 * j + 1], 1e-10 * stress);

@@ -44,12 +44,13 @@ name = "inner"
 points = [[0.8, 0.6], [0.78, 0.9]]
 contact = {{ law = "frictionless" }}
 )",
-                                          GetParam()));
+                                           GetParam()));
   const CrackFrame before = simulation->cracks();
   run(*simulation);
   const CrackFrame after = simulation->cracks();
   EXPECT_LT(largest(field(simulation->particles(), "stress").values), 1e-12 * 1e5);  // the row's bound, sigma/E
-  for (const auto& [a, b] : {std::pair{&before.plane, &after.plane}, std::pair{&before.upper, &after.upper}, std::pair{&before.lower, &after.lower}}) {
+  for (const auto& [a, b] :
+       {std::pair{&before.plane, &after.plane}, std::pair{&before.upper, &after.upper}, std::pair{&before.lower, &after.lower}}) {
     for (std::size_t v = 0; v < a->size() / 3; ++v) {
       EXPECT_NEAR((*b)[3 * v], (*a)[3 * v] + 1.25, 1e-3 * h);
       EXPECT_NEAR((*b)[3 * v + 1], (*a)[3 * v + 1] + 0.625, 1e-3 * h);
@@ -90,7 +91,7 @@ name = "crack"
 points = [[-0.2, 0.03], [0.3, 0.01]]
 contact = {{ law = "frictionless" }}
 )",
-                                          M_PI / 2 / omega, R, omega));
+                                           M_PI / 2 / omega, R, omega));
   const CrackFrame before = simulation->cracks();
   double worst = 0;
   run(*simulation, [&](Simulation& s) {

@@ -24,7 +24,9 @@ double tangential_impulse(const ContactLawSpec& law, double N, double stick) {
       law);
 }
 
-bool may_stick(const ContactLawSpec& law) { return std::holds_alternative<CoulombContact>(law) || std::holds_alternative<StickContact>(law); }
+bool may_stick(const ContactLawSpec& law) {
+  return std::holds_alternative<CoulombContact>(law) || std::holds_alternative<StickContact>(law);
+}
 
 /// Impulse on b from a normal impulse D_n (along n, negative closes: then b is pushed along +n) and the law's share of the
 /// tangential one. D = m_red (v_b - v_a) is the stick impulse on a.

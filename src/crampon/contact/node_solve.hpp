@@ -31,20 +31,26 @@ template <int Dim>
 struct ContactPair {
   int a = 0, b = 0;
   CrackId crack = 0;
-  Signature others;     ///< the other cracks that separate the pair from the node
+  Signature others;  ///< the other cracks that separate the pair from the node
   Vec<Dim> n;
-  double gap = 0;       ///< m, at the start of the step: negative when the faces overlap (contact.md 2.2)
-  double volume_ratio = 0;  ///< V_rel of N03 Eq. 10
+  double gap = 0;                              ///< m, at the start of the step: negative when the faces overlap (contact.md 2.2)
+  double volume_ratio = 0;                     ///< V_rel of N03 Eq. 10
   ContactState previous = ContactState::open;  ///< Task-4 state of the last step
   ContactState state = ContactState::open;     ///< Task-4 state of this step
-  double w_end = 0;     ///< normal relative velocity after Task 4, m/s
-  Vec<Dim> J;           ///< impulse on b in the present task, kg m/s
+  double w_end = 0;                            ///< normal relative velocity after Task 4, m/s
+  Vec<Dim> J;                                  ///< impulse on b in the present task, kg m/s
+
+  // For the energy that contact takes (BlockLedger::contact_loss).
+  Vec<Dim> w_start;    ///< relative velocity before Task 2, m/s
+  Vec<Dim> w_settled;  ///< ... after it
+  Vec<Dim> gain;       ///< what the forces of Task 3 added to it
+  Vec<Dim> J2, J4;     ///< impulses of Tasks 2 and 4, kg m/s
 };
 
 template <int Dim>
 struct ContactNode {
-  std::uint16_t node = 0;  ///< local node of the block
-  std::int64_t number = 0; ///< node number in the grid
+  std::uint16_t node = 0;   ///< local node of the block
+  std::int64_t number = 0;  ///< node number in the grid
   std::uint32_t first_field = 0, end_field = 0;
   std::uint32_t first_group = 0, end_group = 0;
   std::uint32_t first_pair = 0, end_pair = 0;

@@ -73,14 +73,14 @@ inline Pack lane_log(Pack a) { return Pack{std::log(a[0]), std::log(a[1]), std::
 
 /// Rows become columns: afterwards row l holds what lane l of each row was.
 inline void transpose(Pack& a, Pack& b, Pack& c, Pack& d) {
-  const Pack t0 = __builtin_shuffle(a, b, Index4{0, 4, 2, 6});
-  const Pack t1 = __builtin_shuffle(a, b, Index4{1, 5, 3, 7});
-  const Pack t2 = __builtin_shuffle(c, d, Index4{0, 4, 2, 6});
-  const Pack t3 = __builtin_shuffle(c, d, Index4{1, 5, 3, 7});
-  a = __builtin_shuffle(t0, t2, Index4{0, 1, 4, 5});
-  b = __builtin_shuffle(t1, t3, Index4{0, 1, 4, 5});
-  c = __builtin_shuffle(t0, t2, Index4{2, 3, 6, 7});
-  d = __builtin_shuffle(t1, t3, Index4{2, 3, 6, 7});
+  const Pack t0 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Pack t1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Pack t2 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Pack t3 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(t0, t2, 0, 1, 4, 5);
+  b = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
+  c = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
+  d = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
 }
 
 /// The first components of a record as a nodal vector.

@@ -28,7 +28,7 @@ struct ElasticSmallStrain {
     const ElasticConstants c(E, nu);
     const Pack mu2 = splat(2 * c.mu), d = splat(dt);
     if constexpr (Dim == 2) {
-      const Pack exx = fused(d, L[0], strain[0]), eyy = fused(d, L[3], strain[1]);      // N03 Eq. 35
+      const Pack exx = fused(d, L[0], strain[0]), eyy = fused(d, L[3], strain[1]);  // N03 Eq. 35
       const Pack exy = fused(splat(dt / 2), L[1] + L[2], strain[2]);
       const Pack pressure = splat(c.plane_lambda(S)) * (exx + eyy);
       strain[0] = exx, strain[1] = eyy, strain[2] = exy;

@@ -36,9 +36,9 @@ class MaterialLaw {
  public:
   virtual ~MaterialLaw() = default;
   virtual std::string name() const = 0;
-  virtual double density() const = 0;                     ///< kg/m3, initial
-  virtual double wave_speed(StressState) const = 0;       ///< m/s, fastest, undeformed
-  virtual int history_size(int dimension) const = 0;      ///< Packs per pack
+  virtual double density() const = 0;                 ///< kg/m3, initial
+  virtual double wave_speed(StressState) const = 0;   ///< m/s, fastest, undeformed
+  virtual int history_size(int dimension) const = 0;  ///< Packs per pack
   /// Can the wave speed change as the body deforms (so that the time step must be watched)?
   virtual bool wave_speed_changes() const = 0;
   virtual Pack wave_speed(StressState, int dimension, const Pack* stress, const Pack* history) const = 0;
@@ -66,9 +66,7 @@ class LawKernel final : public MaterialLaw {
   std::string name() const override { return Law::name; }
   double density() const override { return law_.density; }
   double wave_speed(StressState s) const override { return law_.wave_speed(s); }
-  int history_size(int dimension) const override {
-    return dimension == 2 ? Law::template history_size<2> : Law::template history_size<3>;
-  }
+  int history_size(int dimension) const override { return dimension == 2 ? Law::template history_size<2> : Law::template history_size<3>; }
   bool wave_speed_changes() const override { return Law::wave_speed_changes; }
   Pack wave_speed(StressState s, int dimension, const Pack* stress, const Pack* history) const override {
     if constexpr (Law::wave_speed_changes) {
@@ -95,8 +93,8 @@ class LawKernel final : public MaterialLaw {
   bool sweep(const StressBatch<Dim>& b) const {
     Pack smallest = splat(1.);
     for (int q = 0; q < b.packs; ++q) {
-      const Pack ratio = law_.template update<Dim, S>(b.L + q * Dim * Dim, b.dt, b.stress + q * stress_size<Dim>,
-                                                      b.history + q * b.history_stride);
+      const Pack ratio =
+          law_.template update<Dim, S>(b.L + q * Dim * Dim, b.dt, b.stress + q * stress_size<Dim>, b.history + q * b.history_stride);
       smallest = ratio < smallest ? ratio : (ratio == ratio ? smallest : splat(-1.));  // NaN compares with nothing
     }
     return all_positive(smallest);

@@ -99,7 +99,9 @@ struct NeoHookean {
       longest = lane_max(lane_max(b[0] + magnitude(b[3]) + magnitude(b[5]), b[1] + magnitude(b[3]) + magnitude(b[4])),
                          b[2] + magnitude(b[4]) + magnitude(b[5]));
     }
-    const Pack square = (c.plane_lambda(S) + c.mu + c.mu * longest - c.lambda * lane_log(volume_ratio_of<Dim>(F))) / density;
+    Pack lambda = splat(c.lambda);
+    if constexpr (S == StressState::plane_stress) lambda = 2 * c.lambda * c.mu * b[3] / (c.lambda + 2 * c.mu * b[3]);
+    const Pack square = (lambda + c.mu + c.mu * longest - c.lambda * lane_log(volume_ratio_of<Dim>(F))) / density;
     return lane_sqrt(square);
   }
 };

@@ -119,8 +119,10 @@ class BodyBuilder {
       for (const ListedParticle& p : listed.particles) {
         add(b, material, p.position, p.volume, p.velocity);
         if (grid_.contains(out_.particles.back().x)) continue;
-        errors_.push_back({{path.string(), p.line, 1, body.location.where}, fmt::format("the particle at {} lies outside the grid", text_of(out_.particles.back().x)),
-                           "", "enlarge the grid or correct the file"});
+        errors_.push_back({{path.string(), p.line, 1, body.location.where},
+                           fmt::format("the particle at {} lies outside the grid", text_of(out_.particles.back().x)),
+                           "",
+                           "enlarge the grid or correct the file"});
         return;  // one such particle tells enough
       }
     } catch (const InputError& e) {

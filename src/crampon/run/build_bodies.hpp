@@ -11,9 +11,9 @@ namespace crampon {
 /// A particle before the engine's layout: as the body states it.
 template <int Dim>
 struct NewParticle {
-  Vec<Dim> x, v;                    ///< m, m/s
-  double volume = 0, mass = 0;      ///< m3, kg
-  std::uint32_t material = 0;       ///< index into Model::materials
+  Vec<Dim> x, v;                ///< m, m/s
+  double volume = 0, mass = 0;  ///< m3, kg
+  std::uint32_t material = 0;   ///< index into Model::materials
   std::uint16_t body = 0;
 };
 
@@ -21,9 +21,9 @@ struct NewParticle {
 template <int Dim>
 struct BuiltBodies {
   std::vector<NewParticle<Dim>> particles;
-  std::vector<Material<Dim>> materials;              ///< one for every combination of law, thickness and particle size
-  std::vector<std::array<int, Dim>> per_cell;        ///< per body
-  std::vector<bool> on_lattice;                      ///< per body: filled, not from a file
+  std::vector<Material<Dim>> materials;        ///< one for every combination of law, thickness and particle size
+  std::vector<std::array<int, Dim>> per_cell;  ///< per body
+  std::vector<bool> on_lattice;                ///< per body: filled, not from a file
 };
 
 /// Errors are added to `errors`; the result is then incomplete.

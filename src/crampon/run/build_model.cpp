@@ -32,7 +32,9 @@ void for_nodes(const Grid<Dim>& grid, const Bounds3& box, F f) {
   constexpr int beyond = 2;
   IndexVector<Dim> low{}, high{};
   for (int k = 0; k < Dim; ++k) {
-    const auto index = [&](double x) { return std::fmin(std::fmax((x - grid.origin[k]) * grid.inverse_cell[k], -beyond), grid.cells[k] + beyond); };
+    const auto index = [&](double x) {
+      return std::fmin(std::fmax((x - grid.origin[k]) * grid.inverse_cell[k], -beyond), grid.cells[k] + beyond);
+    };
     low[k] = static_cast<int>(std::floor(index(box.low[k]) - 1e-6));
     high[k] = static_cast<int>(std::ceil(index(box.high[k]) + 1e-6));
     low[k] = std::max(low[k], -beyond);
@@ -66,8 +68,8 @@ void build_conditions(const Problem& problem, Model<Dim>& model, std::vector<Dia
       if (in.region->contains(in_space(x), slack)) c.nodes.push_back(number);
     });
     if (c.nodes.empty()) {
-      errors.push_back({in.at("region"), fmt::format("no node of the grid lies in the region of \"{}\"", in.name), "the condition would do nothing",
-                        "let the region pass through grid lines or enlarge it"});
+      errors.push_back({in.at("region"), fmt::format("no node of the grid lies in the region of \"{}\"", in.name),
+                        "the condition would do nothing", "let the region pass through grid lines or enlarge it"});
     }
     model.conditions.push_back(std::move(c));
   }
@@ -94,15 +96,16 @@ void build_conditions(const Problem& problem, Model<Dim>& model, std::vector<Dia
   }
 }
 
-void build_cracks(const Problem& problem, const Grid<2>& grid, Cracks<2>& cracks, std::vector<ContactLawSpec>& laws, std::vector<Diagnostic>& errors) {
+void build_cracks(const Problem& problem, const Grid<2>& grid, Cracks<2>& cracks, std::vector<ContactLawSpec>& laws,
+                  std::vector<Diagnostic>& errors) {
   for (const CrackInput& in : problem.cracks) {
     const double longest = in.max_segment.value_or(0.5 * grid.smallest_cell());
     Crack<2> crack;
     crack.name = in.name;
     crack.fixed = in.fixed;
     if (in.arc) {
-      const int segments = in.arc->segments > 0 ? static_cast<int>(in.arc->segments)
-                                                : count_arc_segments(in.arc->radius, in.arc->from, in.arc->to, longest);
+      const int segments =
+          in.arc->segments > 0 ? static_cast<int>(in.arc->segments) : count_arc_segments(in.arc->radius, in.arc->from, in.arc->to, longest);
       crack.plane = divide_arc({{in.arc->centre[0], in.arc->centre[1]}}, in.arc->radius, in.arc->from, in.arc->to, segments);
     } else {
       std::vector<Vec<2>> points;
@@ -111,8 +114,9 @@ void build_cracks(const Problem& problem, const Grid<2>& grid, Cracks<2>& cracks
     }
     for (const Vec<2>& v : crack.plane) {
       if (grid.contains(v)) continue;
-      errors.push_back({in.at(in.arc ? "arc" : "points"), fmt::format("the crack \"{}\" reaches out of the grid at ({:.6g}, {:.6g}) m", in.name, v[0], v[1]),
-                        "", "enlarge the grid or move the crack"});
+      errors.push_back({in.at(in.arc ? "arc" : "points"),
+                        fmt::format("the crack \"{}\" reaches out of the grid at ({:.6g}, {:.6g}) m", in.name, v[0], v[1]), "",
+                        "enlarge the grid or move the crack"});
       break;
     }
     crack.closed = crack.plane.size() > 3 && crack.plane.front() == crack.plane.back();
@@ -156,7 +160,8 @@ class LoadBuilder {
     load.name = in.name;
     const bool on_face = in.kind == LoadInput::Kind::traction || in.kind == LoadInput::Kind::pressure;
     for (int k = 0; k < Dim; ++k) {
-      load.value.push_back(in.value.empty() ? ValueFunction() : in.value[std::min<std::size_t>(static_cast<std::size_t>(k), in.value.size() - 1)]);
+      load.value.push_back(in.value.empty() ? ValueFunction()
+                                            : in.value[std::min<std::size_t>(static_cast<std::size_t>(k), in.value.size() - 1)]);
     }
     on_face ? add_face(in, load) : add_forces(in, load);
     if (load.particles.empty()) {
@@ -227,7 +232,8 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
   for (const auto& m : model.materials) history = std::max(history, m.law->history_size(Dim));
   // One run per material in the order of creation; the first step re-orders them by block.
   std::vector<std::vector<std::uint32_t>> by_material(model.materials.size());
-  for (std::size_t i = 0; i < bodies.particles.size(); ++i) by_material[bodies.particles[i].material].push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < bodies.particles.size(); ++i)
+    by_material[bodies.particles[i].material].push_back(static_cast<std::uint32_t>(i));
   std::uint32_t packs = 0;
   for (std::size_t m = 0; m < by_material.size(); ++m) {
     const auto count = static_cast<std::uint32_t>((by_material[m].size() + lanes - 1) / lanes);
@@ -278,7 +284,7 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   model.body_force = problem.method.body_force;
   model.damping = problem.method.damping;
   model.damped = model.damping.depends_on_time() || model.damping(0, {}) != 0;
-  model.contact = {problem.contact.scheme,           problem.contact.detection,      problem.contact.pairs,
+  model.contact = {problem.contact.scheme,           problem.contact.detection,        problem.contact.pairs,
                    problem.contact.reference_volume, problem.contact.volume_separated, problem.contact.volume_contact,
                    problem.contact.require_approach, problem.contact.mass_screen};
 

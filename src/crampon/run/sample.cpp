@@ -243,7 +243,8 @@ std::uint64_t hash_state(const State<Dim>& state) {
     hash.add(state.particles.position(p).c);
     hash.add(state.particles.velocity(p).c);
     for (int c = 0; c < stress_size<Dim>; ++c) hash.add(state.particles.stress[p / lanes * stress_size<Dim> + c][p % lanes]);
-    for (int c = 0; c < state.particles.history_size; ++c) hash.add(state.particles.history[p / lanes * state.particles.history_size + c][p % lanes]);
+    for (int c = 0; c < state.particles.history_size; ++c)
+      hash.add(state.particles.history[p / lanes * state.particles.history_size + c][p % lanes]);
   }
   for (const auto& crack : state.cracks.list) {
     for (const auto* points : {&crack.plane, &crack.upper, &crack.lower}) {
@@ -253,9 +254,9 @@ std::uint64_t hash_state(const State<Dim>& state) {
   return hash.value();
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                                                \
-  template PointFrame sample_particles<DIM>(const State<DIM>&, const Model<DIM>&, const std::vector<std::string>&);              \
-  template PointFrame sample_nodes<DIM>(const State<DIM>&, const Model<DIM>&);                                                   \
+#define CRAMPON_INSTANTIATE(DIM)                                                                                    \
+  template PointFrame sample_particles<DIM>(const State<DIM>&, const Model<DIM>&, const std::vector<std::string>&); \
+  template PointFrame sample_nodes<DIM>(const State<DIM>&, const Model<DIM>&);                                      \
   template std::uint64_t hash_state<DIM>(const State<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)

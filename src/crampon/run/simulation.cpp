@@ -81,9 +81,9 @@ class Engine final : public Simulation {
   PointFrame nodes() const override { return sample_nodes(state_, model_); }
 
   std::vector<HistoryColumn> history_columns() const override {
-    std::vector<HistoryColumn> c = {{"time", "s"},          {"kinetic_energy", "J"},  {"strain_energy", "J"},   {"total_energy", "J"},
-                                    {"load_work", "J"},     {"body_force_work", "J"}, {"boundary_work", "J"},   {"damping_loss", "J"},
-                                    {"contact_loss", "J"},  {"energy_closure", "J"}};
+    std::vector<HistoryColumn> c = {{"time", "s"},         {"kinetic_energy", "J"},  {"strain_energy", "J"}, {"total_energy", "J"},
+                                    {"load_work", "J"},    {"body_force_work", "J"}, {"boundary_work", "J"}, {"damping_loss", "J"},
+                                    {"contact_loss", "J"}, {"energy_closure", "J"}};
     for (int k = 0; k < Dim; ++k) c.push_back({std::string("momentum_") + axis_names[k], "kg m/s"});
     c.push_back({"angular_momentum_z", "kg m2/s"});
     for (const auto& condition : model_.conditions) {
@@ -107,8 +107,8 @@ class Engine final : public Simulation {
     const EnergyTotals& e = state_.energy;
     const double total = sums.kinetic + sums.strain;
     const double closure = total + e.damping + e.contact_loss - e.load_work - e.body_work - e.boundary_work - initial_energy_;
-    std::vector<double> row = {state_.time,     sums.kinetic, sums.strain,    total,  e.load_work, e.body_work,
-                               e.boundary_work, e.damping,    e.contact_loss, closure};
+    std::vector<double> row = {state_.time, sums.kinetic,    sums.strain, total,          e.load_work,
+                               e.body_work, e.boundary_work, e.damping,   e.contact_loss, closure};
     for (int k = 0; k < Dim; ++k) row.push_back(sums.momentum[k]);
     row.push_back(sums.angular);
     for (std::size_t c = 0; c < model_.conditions.size(); ++c) {
@@ -124,7 +124,8 @@ class Engine final : public Simulation {
       const Field& f = frame.fields.back();
       for (int k = 0; k < f.components; ++k) {
         const bool there = at != ids.end() && *at == probe.particle;
-        row.push_back(there ? f.values[static_cast<std::size_t>(at - ids.begin()) * f.components + k] : std::numeric_limits<double>::quiet_NaN());
+        row.push_back(there ? f.values[static_cast<std::size_t>(at - ids.begin()) * f.components + k]
+                            : std::numeric_limits<double>::quiet_NaN());
       }
     }
     return row;
@@ -138,9 +139,11 @@ class Engine final : public Simulation {
   }
   std::vector<std::string> notes() const override {
     std::vector<std::string> out;
-    if (state_.most_crowded_nodes > 0) out.push_back(fmt::format("up to {} nodes saw more than two cracks at once", state_.most_crowded_nodes));
+    if (state_.most_crowded_nodes > 0)
+      out.push_back(fmt::format("up to {} nodes saw more than two cracks at once", state_.most_crowded_nodes));
     if (state_.most_unsolved_nodes > 0) {
-      out.push_back(fmt::format("contact did not converge at up to {} nodes of a step; smaller cells where cracks meet usually help", state_.most_unsolved_nodes));
+      out.push_back(fmt::format("contact did not converge at up to {} nodes of a step; smaller cells where cracks meet usually help",
+                                state_.most_unsolved_nodes));
     }
     if (state_.removed > 0) out.push_back(fmt::format("{} particles left the grid and were removed", state_.removed));
     return out;
@@ -185,7 +188,8 @@ class Engine final : public Simulation {
       IndexVector<Dim> b{};
       const Vec<Dim> x = state_.particles.position(p);
       for (int k = 0; k < Dim; ++k) {
-        b[k] = Grid<Dim>::block_of(static_cast<int>(std::floor((x[k] - model_.grid.origin[k]) * model_.grid.inverse_cell[k] + Shape::bin_shift)));
+        b[k] = Grid<Dim>::block_of(
+            static_cast<int>(std::floor((x[k] - model_.grid.origin[k]) * model_.grid.inverse_cell[k] + Shape::bin_shift)));
       }
       blocks.push_back(model_.grid.block_number(b));
     }
@@ -204,7 +208,8 @@ class Engine final : public Simulation {
         for (int k = 0; k < Dim; ++k) d[k] -= in.point[static_cast<std::size_t>(k)];
         // Of particles equally near, the one made first.
         const double distance = norm(d);
-        if (distance < best || (distance == best && state_.particles.id[p] < probe.particle)) best = distance, probe.particle = state_.particles.id[p];
+        if (distance < best || (distance == best && state_.particles.id[p] < probe.particle))
+          best = distance, probe.particle = state_.particles.id[p];
       }
       probes_.push_back(probe);
     }

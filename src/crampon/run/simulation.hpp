@@ -23,9 +23,9 @@ struct SimulationSize {
   std::int64_t cells = 0;         ///< of the whole grid
   std::int64_t active_cells = 0;  ///< in blocks that hold particles
   std::int64_t cracks = 0, crack_segments = 0;
-  std::int64_t steps = 0;         ///< planned; estimated when the time step may change
-  double time_step = 0;           ///< s, first step
-  double memory_bytes = 0;        ///< estimate of the engine's arrays
+  std::int64_t steps = 0;   ///< planned; estimated when the time step may change
+  double time_step = 0;     ///< s, first step
+  double memory_bytes = 0;  ///< estimate of the engine's arrays
 };
 
 class Simulation {
@@ -40,10 +40,10 @@ class Simulation {
   /// longest: do not step further than this time (s), so that output times are hit exactly.
   virtual void step(double longest) = 0;
 
-  virtual double time() const = 0;             ///< s
+  virtual double time() const = 0;  ///< s
   virtual std::int64_t steps_done() const = 0;
-  virtual bool finished() const = 0;           ///< the end time or the number of steps is reached
-  virtual double end_time() const = 0;         ///< s; estimated when only steps are given
+  virtual bool finished() const = 0;    ///< the end time or the number of steps is reached
+  virtual double end_time() const = 0;  ///< s; estimated when only steps are given
   virtual SimulationSize size() const = 0;
 
   /// Names that particles() understands, in the order of the reference page.

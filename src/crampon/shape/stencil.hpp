@@ -42,10 +42,10 @@ using HalfSize = std::array<double, Dim>;
 template <int Dim, class Shape>
 struct Stencil {
   static constexpr int count = Tile<Dim, Shape>::stencil;
-  Pack S[count];                  ///< lanes over particles
-  Pack G[count][Dim];             ///< 1/m
-  alignas(32) int base[lanes];    ///< tile index of the lowest node
-  bool same_base;                 ///< all four particles share it
+  Pack S[count];                ///< lanes over particles
+  Pack G[count][Dim];           ///< 1/m
+  alignas(32) int base[lanes];  ///< tile index of the lowest node
+  bool same_base;               ///< all four particles share it
 
   /// x: positions, one Pack per axis, m; first_node: grid index of the block's first node.
   void compute(const Pack* x, const Grid<Dim>& grid, const IndexVector<Dim>& first_node, const HalfSize<Dim>& half_size) {

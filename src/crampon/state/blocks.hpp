@@ -55,9 +55,9 @@ struct Block {
 
 template <int Dim>
 struct Blocks {
-  std::vector<Block<Dim>> list;            ///< in the order of their number in the grid
+  std::vector<Block<Dim>> list;  ///< in the order of their number in the grid
   std::vector<Run> runs;
-  std::vector<std::uint32_t> of_number;    ///< block number in the grid -> index in list, or no_block
+  std::vector<std::uint32_t> of_number;  ///< block number in the grid -> index in list, or no_block
   std::size_t size() const { return list.size(); }
 };
 

@@ -17,8 +17,8 @@ using VertexId = std::uint32_t;
 template <int Dim>
 struct Crack {
   std::string name;
-  bool fixed = false;   ///< the plane stays where it is
-  bool closed = false;  ///< last vertex equals the first: no tips
+  bool fixed = false;              ///< the plane stays where it is
+  bool closed = false;             ///< last vertex equals the first: no tips
   std::vector<Vec<Dim>> plane;     ///< present vertices, m
   std::vector<Vec<Dim>> upper;     ///< points of the upper surface, m
   std::vector<Vec<Dim>> lower;     ///< points of the lower surface, m

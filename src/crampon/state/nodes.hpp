@@ -30,15 +30,15 @@ struct CrossingSums {
 /// The layers of one block, as a tile sees them and as the block's own nodes see them.
 template <int Dim>
 struct BlockLayers {
-  std::vector<Signature> tile{Signature{}};      ///< layers in which the block's particles take part; layer 0 is {}
-  std::vector<TileBox<Dim>> tile_box;            ///< box touched by tile layers 1.. (entry l - 1)
-  std::vector<Signature> node{Signature{}};      ///< layers present at the block's own nodes
-  std::vector<CrackId> tile_cracks, node_cracks; ///< cracks crossed by pairs of the tile / at own nodes
-  std::vector<PairTarget> targets;               ///< [special pack][lane][stencil node]
-  std::vector<std::int32_t> special;             ///< per pack of the block: index of its targets, or -1; empty: none special
-  std::uint32_t tile_begin = 0, node_begin = 0;  ///< first tile / nodal slot
+  std::vector<Signature> tile{Signature{}};       ///< layers in which the block's particles take part; layer 0 is {}
+  std::vector<TileBox<Dim>> tile_box;             ///< box touched by tile layers 1.. (entry l - 1)
+  std::vector<Signature> node{Signature{}};       ///< layers present at the block's own nodes
+  std::vector<CrackId> tile_cracks, node_cracks;  ///< cracks crossed by pairs of the tile / at own nodes
+  std::vector<PairTarget> targets;                ///< [special pack][lane][stencil node]
+  std::vector<std::int32_t> special;              ///< per pack of the block: index of its targets, or -1; empty: none special
+  std::uint32_t tile_begin = 0, node_begin = 0;   ///< first tile / nodal slot
   std::uint32_t crossing_tile_begin = 0, crossing_node_begin = 0;
-  bool sums_contact = false;                     ///< some node in reach has several layers
+  bool sums_contact = false;  ///< some node in reach has several layers
 };
 
 /// All nodal quantities of a step. Arrays are indexed [slot][local node]; a slot is a (block, layer).
@@ -54,10 +54,10 @@ struct Nodes {
   AlignedArray<CrossingSums> tile_crossing;
 
   // Nodes of blocks.
-  AlignedArray<Pack> momentum;                  ///< {p, m} with the mass in lane Dim: kg m/s, kg
-  AlignedArray<NodalVector<Dim>> force;         ///< N
-  AlignedArray<NodalVector<Dim>> velocity;      ///< what the next stress update reads, m/s
-  AlignedArray<MotionRecord<Dim>> motion;       ///< {v', a} of Task 4
+  AlignedArray<Pack> momentum;              ///< {p, m} with the mass in lane Dim: kg m/s, kg
+  AlignedArray<NodalVector<Dim>> force;     ///< N
+  AlignedArray<NodalVector<Dim>> velocity;  ///< what the next stress update reads, m/s
+  AlignedArray<MotionRecord<Dim>> motion;   ///< {v', a} of Task 4
   AlignedArray<ContactSums> contact;
   AlignedArray<CrossingSums> crossing;
 

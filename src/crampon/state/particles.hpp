@@ -25,14 +25,14 @@ inline constexpr std::uint32_t padding_id = std::numeric_limits<std::uint32_t>::
 template <int Dim>
 struct Particles {
   std::size_t packs = 0;
-  int history_size = 0;             ///< Packs of material history per pack
-  AlignedArray<Pack> motion;        ///< [particle][motion_packs]: m, m/s
-  AlignedArray<Pack> mass_volume;   ///< [pack][2]: mass kg, initial volume m3
-  AlignedArray<Pack> stress;        ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
-  AlignedArray<Pack> history;       ///< [pack][history_size]: strain or deformation gradient and the law's own variables
-  AlignedArray<Vec<Dim>> original;  ///< [particle]: position at the start, m
-  AlignedArray<std::uint32_t> id;   ///< [particle]: number in the order of creation
-  AlignedArray<std::uint16_t> body; ///< [particle]
+  int history_size = 0;              ///< Packs of material history per pack
+  AlignedArray<Pack> motion;         ///< [particle][motion_packs]: m, m/s
+  AlignedArray<Pack> mass_volume;    ///< [pack][2]: mass kg, initial volume m3
+  AlignedArray<Pack> stress;         ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
+  AlignedArray<Pack> history;        ///< [pack][history_size]: strain or deformation gradient and the law's own variables
+  AlignedArray<Vec<Dim>> original;   ///< [particle]: position at the start, m
+  AlignedArray<std::uint32_t> id;    ///< [particle]: number in the order of creation
+  AlignedArray<std::uint16_t> body;  ///< [particle]
 
   std::size_t size() const { return packs * lanes; }
 
@@ -86,7 +86,7 @@ struct Particles {
   /// {m v, m} of particle p, the mass in lane Dim (N03 Eq. 26).
   Pack momentum_record(std::size_t p, double mass) const {
     if constexpr (Dim == 2) {
-      return __builtin_shuffle(motion[p], Pack{1., 0., 0., 0.}, Index4{2, 3, 4, 5}) * mass;
+      return __builtin_shufflevector(motion[p], Pack{1., 0., 0., 0.}, 2, 3, 4, 5) * mass;
     } else {
       return motion[2 * p + 1] * mass;
     }

@@ -76,9 +76,38 @@ struct GroupSums {
 };
 
 template <int Dim>
+Vec<Dim> relative_velocity(const ContactGroup<Dim>* groups, const ContactPair<Dim>& pair) {
+  const ContactGroup<Dim>&a = groups[pair.a], &b = groups[pair.b];
+  return (b.p + b.dp) * (1 / b.m) - (a.p + a.dp) * (1 / a.m);
+}
+
+/// Energy that contact takes from the particles in a step (contact-consistency.md): with w- and w+ the relative velocities before Task 2
+/// and before Task 6, and da what the forces of Task 3 add, -1/2 (J4.w- - da.J2) - 1/2 (J4.w+ - da.J6); half in Task 4, half in Task 6.
+template <int Dim>
+double energy_taken(ContactPair<Dim>& pair, ContactTask task, const Vec<Dim>& before, const Vec<Dim>& after, bool re_extrapolates) {
+  switch (task) {
+    case ContactTask::two:
+      pair.w_start = before;
+      pair.w_settled = after;
+      pair.J2 = pair.J;
+      return 0;
+    case ContactTask::four: {
+      pair.J4 = pair.J;
+      pair.gain = before - pair.w_settled;
+      const double first = -0.5 * (dot(pair.J4, pair.w_start) - dot(pair.gain, pair.J2));
+      return re_extrapolates ? first : first - 0.5 * dot(pair.J4, after);  // without Task 6 the step ends with Task 4
+    }
+    case ContactTask::six:
+      return -0.5 * (dot(pair.J4, before) - dot(pair.gain, pair.J));
+  }
+  return 0;
+}
+
+template <int Dim>
 class NodeFinder {
  public:
-  NodeFinder(State<Dim>& state, const Model<Dim>& model, std::size_t b) : state_(state), model_(model), b_(b), out_(state.scratch[b].contact) {}
+  NodeFinder(State<Dim>& state, const Model<Dim>& model, std::size_t b)
+      : state_(state), model_(model), b_(b), out_(state.scratch[b].contact) {}
 
   void find(int node) {
     const BlockLayers<Dim>& layers = state_.nodes.layers[b_];
@@ -124,7 +153,7 @@ class NodeFinder {
       crack.N = normalized(N);
       crack.side = sum.r[0][2];
       cracks_.push_back(crack);
-      out_.sides.push_back({number, crack.crack, static_cast<std::int8_t>((crack.side > 0) - (crack.side < 0))});
+      out_.sides.push_back({number, crack.crack, static_cast<std::int8_t>((crack.side > 0 ? 1 : 0) - (crack.side < 0 ? 1 : 0))});
     }
     if (cracks_.size() > 2) ++state_.scratch[b_].ledger.crowded_nodes;
   }
@@ -236,6 +265,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
   rules.volume_contact = model.contact.volume_contact;
   rules.require_approach = model.contact.require_approach;
   rules.sequential = model.contact.pairs == ContactPairs::sequential;
+  const bool re_extrapolates = model.stress_update == StressUpdate::musl || model.stress_update == StressUpdate::usavg;
   for (ContactNode<Dim>& node : contacts.nodes) {
     ContactGroup<Dim>* groups = contacts.groups.data() + node.first_group;
     ContactPair<Dim>* pairs = contacts.pairs.data() + node.first_pair;
@@ -248,14 +278,11 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
     rules.fixed_axes = task == ContactTask::four ? fixed_axes(state, b, node.node) : 0u;
     if (pair_count > 0) {
       std::vector<Vec<Dim>> before;
-      if (task == ContactTask::four) {
-        for (int q = 0; q < pair_count; ++q) before.push_back(groups[pairs[q].b].p * (1 / groups[pairs[q].b].m) - groups[pairs[q].a].p * (1 / groups[pairs[q].a].m));
-      }
+      for (int q = 0; q < pair_count; ++q) before.push_back(relative_velocity(groups, pairs[q]));
       if (!solve_contact<Dim>(rules, model.crack_laws, groups, group_count, pairs, pair_count)) ++state.scratch[b].ledger.unsolved_nodes;
-      for (std::size_t q = 0; q < before.size(); ++q) {
-        const ContactGroup<Dim>&ga = groups[pairs[q].a], &gb = groups[pairs[q].b];
-        const Vec<Dim> after = (gb.p + gb.dp) * (1 / gb.m) - (ga.p + ga.dp) * (1 / ga.m);
-        state.scratch[b].ledger.contact_loss -= 0.5 * dot(pairs[q].J, before[q] + after);
+      for (int q = 0; q < pair_count; ++q) {
+        state.scratch[b].ledger.contact_loss +=
+            energy_taken(pairs[q], task, before[static_cast<std::size_t>(q)], relative_velocity(groups, pairs[q]), re_extrapolates);
       }
     }
     for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
@@ -293,9 +320,9 @@ void remember_contacts(State<Dim>& state) {
   state.memory.sort();
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                              \
-  template void find_contacts<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);                              \
-  template void adjust_contact<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, ContactTask, double);        \
+#define CRAMPON_INSTANTIATE(DIM)                                                                       \
+  template void find_contacts<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);                       \
+  template void adjust_contact<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, ContactTask, double); \
   template void remember_contacts<DIM>(State<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)

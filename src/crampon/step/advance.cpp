@@ -72,28 +72,28 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     if (state.must_reorder) reorder<Dim, Shape>(state, model);
     evaluate_conditions(state, model, dt);
     evaluate_loads(state, model, load_values, body_force, damping);
-    assign_velocity_fields<Dim, Shape>(state, model);                                                                        // Task 0
+    assign_velocity_fields<Dim, Shape>(state, model);  // Task 0
     record_initial_volume<Dim, Shape>(state, model);
   });
-  phases.blocks("project momentum", [&](B b) {                                                                               // Task 1
+  phases.blocks("project momentum", [&](B b) {  // Task 1
     project_momentum<Dim, Shape>(state, model, b);
     project_contact_sums<Dim, Shape>(state, model, b);
   });
-  phases.blocks("contact and boundaries", [&](B b) { settle_start_momenta<Dim, Shape>(state, model, b, dt); });              // Task 2
-  phases.blocks("stress and forces", [&](B b) {                                                                              // Tasks 2, 3
+  phases.blocks("contact and boundaries", [&](B b) { settle_start_momenta<Dim, Shape>(state, model, b, dt); });  // Task 2
+  phases.blocks("stress and forces", [&](B b) {                                                                  // Tasks 2, 3
     update_stress_and_project_forces<Dim, Shape>(state, model, b, stress_first ? stress_dt : 0., load_values);
   });
-  phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });       // Tasks 3, 4
+  phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });  // Tasks 3, 4
   phases.blocks("account loads", [&](B b) { account_loads<Dim, Shape>(state, model, b, dt, load_values); });
   if (re_extrapolates) {
-    phases.blocks("update velocities", [&](B b) { update_velocities_and_project<Dim, Shape>(state, model, b, dt); });        // Tasks 5, 6
-    phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });        // Task 6
+    phases.blocks("update velocities", [&](B b) { update_velocities_and_project<Dim, Shape>(state, model, b, dt); });  // Tasks 5, 6
+    phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });  // Task 6
   }
-  phases.serial("move cracks", [&] {                                                                                         // Task 8
+  phases.serial("move cracks", [&] {  // Task 8
     remember_contacts(state);
     move_cracks(state, model, dt);
   });
-  phases.blocks("stress and positions", [&](B b) {                                                                           // Tasks 5, 6
+  phases.blocks("stress and positions", [&](B b) {  // Tasks 5, 6
     finish_particles<Dim, Shape>(state, model, b, dt, stress_last ? stress_dt : 0., !re_extrapolates);
   });
   state.time += dt;

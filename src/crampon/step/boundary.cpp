@@ -26,7 +26,8 @@ void for_fixed(State<Dim>& state, std::size_t b, F f) {
       FixedComponent& c = scratch.fixed[i];
       if (!c.active) continue;
       // Of several conditions on one component the last one stated holds.
-      if (i + 1 < count && scratch.fixed[i + 1].node == c.node && scratch.fixed[i + 1].axis == c.axis && scratch.fixed[i + 1].active) continue;
+      if (i + 1 < count && scratch.fixed[i + 1].node == c.node && scratch.fixed[i + 1].axis == c.axis && scratch.fixed[i + 1].active)
+        continue;
       f(c, (layers.node_begin + l) * block_nodes<Dim> + c.node, l * count + i);
     }
   }
@@ -102,7 +103,7 @@ void impose_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
           break;
         case FixedForce::n13:
           fixed = (p[Dim] * c.v_new - scratch.p_int[kept]) / dt;  // N13 Eq. 1
-          p[c.axis] = scratch.p_int[kept];                       // the p_k of N13 Eq. 2
+          p[c.axis] = scratch.p_int[kept];                        // the p_k of N13 Eq. 2
           break;
         case FixedForce::zero:
           break;  // N03 Task 3
@@ -138,11 +139,11 @@ unsigned fixed_axes(const State<Dim>& state, std::size_t b, int node) {
   return axes;
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                             \
-  template void evaluate_conditions<DIM>(State<DIM>&, const Model<DIM>&, double);            \
-  template void impose_start_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);      \
-  template void impose_forces<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double);     \
-  template void impose_end_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);        \
+#define CRAMPON_INSTANTIATE(DIM)                                                         \
+  template void evaluate_conditions<DIM>(State<DIM>&, const Model<DIM>&, double);        \
+  template void impose_start_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);  \
+  template void impose_forces<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double); \
+  template void impose_end_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);    \
   template unsigned fixed_axes<DIM>(const State<DIM>&, std::size_t, int);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)

@@ -47,8 +47,8 @@ void for_particles(const State<Dim>& state, std::size_t b, F f) {
 template <int Dim>
 [[noreturn]] void stop(const State<Dim>& state, std::size_t p, const std::string& what, const std::string& advice) {
   const Vec<Dim> x = state.particles.position(p);
-  throw RunError(fmt::format("step {} (t = {:.6g} s): particle {} at {} {}{}; {}", state.step, state.time, state.particles.id[p], text_of(x),
-                             what, nearest_crack(state, x), advice));
+  throw RunError(fmt::format("step {} (t = {:.6g} s): particle {} at {} {}{}; {}", state.step, state.time, state.particles.id[p],
+                             text_of(x), what, nearest_crack(state, x), advice));
 }
 
 template <int Dim>
@@ -63,7 +63,8 @@ template <int Dim>
 void report_bad_number(const State<Dim>& state, std::size_t b) {
   for_particles(state, b, [&](std::size_t p, const Run&) {
     if (is_finite(state.particles.position(p)) && is_finite(state.particles.velocity(p))) return;
-    stop(state, p, "has a position or velocity that is not a number", "lower the Courant factor, or look for a load or a velocity that is too large");
+    stop(state, p, "has a position or velocity that is not a number",
+         "lower the Courant factor, or look for a load or a velocity that is too large");
   });
 }
 
@@ -71,8 +72,9 @@ template <int Dim>
 void report_inverted(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   for_particles(state, b, [&](std::size_t p, const Run& run) {
     const std::size_t k = p / lanes;
-    const PackReport report = model.materials[run.material].law->report(
-        model.stress_state, Dim, &state.particles.stress[k * stress_size<Dim>], state.particles.history.data() + k * state.particles.history_size);
+    const PackReport report =
+        model.materials[run.material].law->report(model.stress_state, Dim, &state.particles.stress[k * stress_size<Dim>],
+                                                  state.particles.history.data() + k * state.particles.history_size);
     const double ratio = report.volume_ratio[p % lanes];
     if (ratio > 0) return;
     stop(state, p, fmt::format("has turned inside out (volume ratio {:.4g})", ratio),
@@ -88,7 +90,8 @@ void report_fast(const State<Dim>& state, const Model<Dim>& model, std::size_t b
     const double v = norm(state.particles.velocity(p));
     if (v > speed) speed = v, fastest = p;
   });
-  stop(state, fastest, fmt::format("moves more than a cell ({:.4g} m) in one step of {:.4g} s: {:.4g} m/s", model.grid.smallest_cell(), dt, speed),
+  stop(state, fastest,
+       fmt::format("moves more than a cell ({:.4g} m) in one step of {:.4g} s: {:.4g} m/s", model.grid.smallest_cell(), dt, speed),
        "the run is unstable or the step too long: lower the Courant factor or the fixed time step");
 }
 
@@ -118,7 +121,8 @@ void check_health(State<Dim>& state, const Model<Dim>& model, double dt) {
     state.scratch[b].health = {};
   }
   if (state.removed > 0 && static_cast<std::size_t>(state.removed) == state.particle_count + static_cast<std::size_t>(state.removed)) {
-    throw RunError(fmt::format("step {} (t = {:.6g} s): every particle has left the grid; enlarge the grid or end the run earlier", state.step, state.time));
+    throw RunError(fmt::format("step {} (t = {:.6g} s): every particle has left the grid; enlarge the grid or end the run earlier",
+                               state.step, state.time));
   }
 }
 

@@ -32,18 +32,17 @@ void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
   for (std::size_t b = 0; b < state.blocks.size(); ++b) {
     if (!state.blocks.list[b].has_particles()) continue;
     const auto first = state.blocks.list[b].first_node();
-    for_packs<Dim, Shape>(state, model, b,
-                          [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget*, const Run& run) {
-                            for (int l = 0; l < lanes; ++l) {
-                              const double V_p = state.particles.volume(std::size_t{pack} * lanes + l) / model.materials[run.material].thickness;
-                              const auto lowest = unflatten<Dim>(stencil.base[l], T::side);
-                              for (int n = 0; n < T::stencil; ++n) {
-                                auto node = unflatten<Dim>(n, Shape::width);
-                                for (int k = 0; k < Dim; ++k) node[k] += lowest[k] + first[k] - T::offset;
-                                state.initial_volume[static_cast<std::size_t>(model.grid.node_number(node))] += V_p * stencil.S[n][l];
-                              }
-                            }
-                          });
+    for_packs<Dim, Shape>(state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget*, const Run& run) {
+      for (int l = 0; l < lanes; ++l) {
+        const double V_p = state.particles.volume(std::size_t{pack} * lanes + l) / model.materials[run.material].thickness;
+        const auto lowest = unflatten<Dim>(stencil.base[l], T::side);
+        for (int n = 0; n < T::stencil; ++n) {
+          auto node = unflatten<Dim>(n, Shape::width);
+          for (int k = 0; k < Dim; ++k) node[k] += lowest[k] + first[k] - T::offset;
+          state.initial_volume[static_cast<std::size_t>(model.grid.node_number(node))] += V_p * stencil.S[n][l];
+        }
+      }
+    });
   }
 }
 
@@ -76,8 +75,8 @@ ParticleSums<Dim> sum_particles(const State<Dim>& state, const Model<Dim>& model
     const Run& run = state.blocks.runs[r];
     ParticleSums<Dim>& sum = parts[r];
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
-      const PackReport report = model.materials[run.material].law->report(
-          model.stress_state, Dim, &particles.stress[k * stress_size<Dim>], particles.history.data() + k * particles.history_size);
+      const PackReport report = model.materials[run.material].law->report(model.stress_state, Dim, &particles.stress[k * stress_size<Dim>],
+                                                                          particles.history.data() + k * particles.history_size);
       const Pack strain = report.energy * particles.mass_volume[2 * k + 1];
       for (int l = 0; l < lanes; ++l) {
         const std::size_t p = k * lanes + l;
@@ -103,9 +102,9 @@ ParticleSums<Dim> sum_particles(const State<Dim>& state, const Model<Dim>& model
   return total;
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                                                  \
-  template void evaluate_loads<DIM>(const State<DIM>&, const Model<DIM>&, std::vector<Vec<DIM>>&, Vec<DIM>&, double&);            \
-  template void close_ledger<DIM>(State<DIM>&, const Model<DIM>&);                                                                \
+#define CRAMPON_INSTANTIATE(DIM)                                                                                       \
+  template void evaluate_loads<DIM>(const State<DIM>&, const Model<DIM>&, std::vector<Vec<DIM>>&, Vec<DIM>&, double&); \
+  template void close_ledger<DIM>(State<DIM>&, const Model<DIM>&);                                                     \
   template ParticleSums<DIM> sum_particles<DIM>(const State<DIM>&, const Model<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)

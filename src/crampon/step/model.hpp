@@ -8,9 +8,9 @@
 
 #include "crampon/contact/law.hpp"
 #include "crampon/core/function.hpp"
+#include "crampon/core/options.hpp"
 #include "crampon/crack/symmetry_fold.hpp"
 #include "crampon/geometry/shape.hpp"
-#include "crampon/core/options.hpp"
 #include "crampon/material/material_law.hpp"
 #include "crampon/shape/stencil.hpp"
 #include "crampon/state/grid.hpp"
@@ -58,8 +58,8 @@ struct Model {
   std::vector<VelocityCondition<Dim>> conditions;
   std::vector<SymmetryPlane> symmetries;
   std::vector<ParticleLoad<Dim>> loads;
-  std::vector<ValueFunction> body_force;   ///< per component or empty, m/s2
-  ValueFunction damping;                   ///< 1/s
+  std::vector<ValueFunction> body_force;  ///< per component or empty, m/s2
+  ValueFunction damping;                  ///< 1/s
   bool damped = false;
   StressUpdate stress_update = StressUpdate::usavg;
   ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
@@ -72,8 +72,8 @@ struct Model {
     ContactPairs pairs = ContactPairs::joint;
     ReferenceVolume reference_volume = ReferenceVolume::initial;
     double volume_separated = 0.9, volume_contact = 1.1;  ///< V_sep, V_contact (N03 section 2.2)
-    bool require_approach = true;  ///< also above V_contact (CONVENTIONS 6)
-    double mass_screen = 1e-6;     ///< CONVENTIONS 37
+    bool require_approach = true;                         ///< also above V_contact (CONVENTIONS 6)
+    double mass_screen = 1e-6;                            ///< CONVENTIONS 37
   } contact;
   int threads = 1;
 

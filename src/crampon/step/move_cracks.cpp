@@ -87,11 +87,13 @@ std::optional<Vec<2>> plane_velocity(const State<2>& state, const Grid<2>& grid,
 /// a surface point itself may lie a hair beyond the plane while the crack is closed, and would then go with the wrong side for good.
 /// Weights are those of the plane, S alone: where faces press on each other they share the normal velocity at every node, and both
 /// surfaces then move as one; weights by mass (fracture.md 6.4) let them drift by the strain over a third of a cell.
-std::optional<Vec<2>> surface_velocity(const State<2>& state, const Grid<2>& grid, const std::vector<CrackPath>& paths, const FacetBins& bins,
-                                       const Vec<2>& from, const Vec<2>& x) {
+std::optional<Vec<2>> surface_velocity(const State<2>& state, const Grid<2>& grid, const std::vector<CrackPath>& paths,
+                                       const FacetBins& bins, const Vec<2>& from, const Vec<2>& x) {
   Vec<2> sum{};
   double weight = 0;
-  const auto cell_of = [&](int k, double coordinate) { return static_cast<int>(std::floor((coordinate - grid.origin[k]) * grid.inverse_cell[k])); };
+  const auto cell_of = [&](int k, double coordinate) {
+    return static_cast<int>(std::floor((coordinate - grid.origin[k]) * grid.inverse_cell[k]));
+  };
   const auto facets = bins.facets_of_cell(cell_of(0, from[0]), cell_of(1, from[1]));
   bool within_reach = true;
   for (int k = 0; k < 2; ++k) within_reach = within_reach && std::abs(cell_of(k, x[k]) - cell_of(k, from[k])) <= surface_reach;

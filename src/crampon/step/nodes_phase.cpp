@@ -40,7 +40,8 @@ void assemble_contact_sums(State<Dim>& state, std::size_t b) {
       const auto at = std::lower_bound(tile.tile_cracks.begin(), tile.tile_cracks.end(), layers.node_cracks[c]);
       if (at == tile.tile_cracks.end() || *at != layers.node_cracks[c]) continue;
       const CrossingSums* sums =
-          &state.nodes.tile_crossing[(tile.crossing_tile_begin + static_cast<std::size_t>(at - tile.tile_cracks.begin())) * Tile<Dim, Shape>::nodes];
+          &state.nodes.tile_crossing[(tile.crossing_tile_begin + static_cast<std::size_t>(at - tile.tile_cracks.begin())) *
+                                     Tile<Dim, Shape>::nodes];
       Overlap<Dim, Shape>(neighbour_step<Dim>(o), whole_tile<Dim, Shape>()).rows([&](int local, int t, int count) {
         for (int i = 0; i < count; ++i) add_record(out[local + i], sums[t + i]);
       });
@@ -140,8 +141,8 @@ void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t 
   find_velocities(state, b);
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                    \
-  template void settle_start_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);     \
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                   \
+  template void settle_start_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);                    \
   template void update_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const Vec<DIM>&, double); \
   template void settle_end_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)

@@ -124,7 +124,8 @@ inline void gradient(const Stencil<Dim, Shape>& s, const PairTarget* targets, co
 
 /// Adds -V0 tau . G_ip to every node (N03 Eq. 28; f = -m (sigma/rho0) . G for its material).
 template <int Dim, class Shape>
-inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* targets, Pack volume, const Pack* stress, NodalVector<Dim>* tiles) {
+inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* targets, Pack volume, const Pack* stress,
+                          NodalVector<Dim>* tiles) {
   using T = Tile<Dim, Shape>;
   // minus_tau[k][l]: column k of -V0 tau of lane l.
   Pack minus_tau[Dim][lanes];
@@ -132,7 +133,7 @@ inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* target
     Pack xx = -(volume * stress[0]), xy = -(volume * stress[2]), yy = -(volume * stress[1]), again = xy;
     transpose(xx, xy, again, yy);
     const Pack row[lanes] = {xx, xy, again, yy};  // {xx, xy, xy, yy} of lane l
-    for (int l = 0; l < lanes; ++l) minus_tau[0][l] = row[l], minus_tau[1][l] = __builtin_shuffle(row[l], Index4{2, 3, 0, 1});
+    for (int l = 0; l < lanes; ++l) minus_tau[0][l] = row[l], minus_tau[1][l] = __builtin_shufflevector(row[l], row[l], 2, 3, 0, 1);
   } else {
     static constexpr int column[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     for (int k = 0; k < 3; ++k) {

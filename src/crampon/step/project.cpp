@@ -44,8 +44,8 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
           const Vec<Dim> x_p = particles.position(p), X_p = particles.original[p];
           const auto lowest = unflatten<Dim>(stencil.base[l], T::side);
           for (int n = 0; n < T::stencil; ++n) {
-            const PairTarget t = targets ? targets[l * T::stencil + n]
-                                         : PairTarget{static_cast<std::uint16_t>(stencil.base[l] + T::steps[n]), 0, 0};
+            const PairTarget t =
+                targets ? targets[l * T::stencil + n] : PairTarget{static_cast<std::uint16_t>(stencil.base[l] + T::steps[n]), 0, 0};
             const auto step = unflatten<Dim>(n, Shape::width);
             ContactSums record{{splat(0.), splat(0.)}};
             record.r[0][0] = volume[l];
@@ -69,17 +69,18 @@ template <int Dim, class Shape>
 void project_loads(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<Vec<Dim>>& load_values,
                    NodalVector<Dim>* tiles) {
   using T = Tile<Dim, Shape>;
-  for_loaded<Dim, Shape>(state, model, b, [&](const LoadedParticle<Dim>& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets) {
-    const Vec<Dim>& share = model.loads[loaded.load].share[loaded.entry];
-    NodalVector<Dim> f_p = splat_as<NodalVector<Dim>>(0.);
-    for (int k = 0; k < Dim; ++k) f_p[k] = share[k] * load_values[loaded.load][k];
-    for (int n = 0; n < T::stencil; ++n) {
-      const int node = targets ? targets[l * T::stencil + n].layer * T::nodes + targets[l * T::stencil + n].node
-                               : stencil.base[l] + T::steps[n];
-      const unsigned flip = targets ? targets[l * T::stencil + n].flip : 0u;
-      tiles[node] = fused(splat_as<NodalVector<Dim>>(stencil.S[n][l]), flipped(f_p, flip), tiles[node]);
-    }
-  });
+  for_loaded<Dim, Shape>(
+      state, model, b, [&](const LoadedParticle<Dim>& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets) {
+        const Vec<Dim>& share = model.loads[loaded.load].share[loaded.entry];
+        NodalVector<Dim> f_p = splat_as<NodalVector<Dim>>(0.);
+        for (int k = 0; k < Dim; ++k) f_p[k] = share[k] * load_values[loaded.load][k];
+        for (int n = 0; n < T::stencil; ++n) {
+          const int node =
+              targets ? targets[l * T::stencil + n].layer * T::nodes + targets[l * T::stencil + n].node : stencil.base[l] + T::steps[n];
+          const unsigned flip = targets ? targets[l * T::stencil + n].flip : 0u;
+          tiles[node] = fused(splat_as<NodalVector<Dim>>(stencil.S[n][l]), flipped(f_p, flip), tiles[node]);
+        }
+      });
 }
 
 }  // namespace
@@ -105,9 +106,9 @@ void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model
   if (!state.scratch[b].loaded.empty()) project_loads<Dim, Shape>(state, model, b, load_values, tiles);
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                  \
-  template void project_momentum<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);               \
-  template void project_contact_sums<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);           \
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                           \
+  template void project_momentum<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                        \
+  template void project_contact_sums<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                    \
   template void update_stress_and_project_forces<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, \
                                                              const std::vector<Vec<DIM>>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)

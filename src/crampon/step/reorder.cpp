@@ -145,8 +145,9 @@ void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
     }
   }
   for (auto& scratch : state.scratch) {
-    std::stable_sort(scratch.fixed.begin(), scratch.fixed.end(),
-                     [](const FixedComponent& a, const FixedComponent& b) { return std::pair{a.node, a.axis} < std::pair{b.node, b.axis}; });
+    std::stable_sort(scratch.fixed.begin(), scratch.fixed.end(), [](const FixedComponent& a, const FixedComponent& b) {
+      return std::pair{a.node, a.axis} < std::pair{b.node, b.axis};
+    });
   }
 
   if (model.loads.empty()) return;
@@ -230,7 +231,8 @@ void reorder(State<Dim>& state, const Model<Dim>& model) {
     const Block<Dim>& block = state.blocks.list[b];
     if (!block.has_particles()) return;
     Pack low = splat(1e300), high = splat(-1e300);
-    for (std::size_t p = state.blocks.runs[block.first_run].first_pack * lanes; p < state.blocks.runs[block.end_run - 1].end_pack * lanes; ++p) {
+    for (std::size_t p = state.blocks.runs[block.first_run].first_pack * lanes; p < state.blocks.runs[block.end_run - 1].end_pack * lanes;
+         ++p) {
       low = lane_min(low, state.particles.motion[p * motion_packs<Dim>]);
       high = lane_max(high, state.particles.motion[p * motion_packs<Dim>]);
     }
@@ -247,8 +249,8 @@ void find_touched_box(State<Dim>& state, const Model<Dim>& model, std::size_t b,
   const auto first = block.first_node();
   for (int k = 0; k < Dim; ++k) {
     const auto lower_node = [&](double x) {
-      return std::floor((x - model.grid.origin[k]) * model.grid.inverse_cell[k] + Shape::bin_shift) - (Shape::width == 3 ? 1 : 0) - first[k] +
-             T::offset;
+      return std::floor((x - model.grid.origin[k]) * model.grid.inverse_cell[k] + Shape::bin_shift) - (Shape::width == 3 ? 1 : 0) -
+             first[k] + T::offset;
     };
     double low = lower_node(lowest[k]), high = lower_node(highest[k]) + Shape::width;
     if (!(low >= 0 && high <= T::side)) {
@@ -262,8 +264,8 @@ void find_touched_box(State<Dim>& state, const Model<Dim>& model, std::size_t b,
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                          \
-  template void reorder<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);             \
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                              \
+  template void reorder<DIM, SHAPE>(State<DIM>&, const Model<DIM>&); \
   template void find_touched_box<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, Pack, Pack);
 CRAMPON_INSTANTIATE(2, LinearShape)
 CRAMPON_INSTANTIATE(2, GimpShape)

@@ -18,7 +18,7 @@ namespace crampon {
 
 /// A prescribed component of a node. Rebuilt when blocks change.
 struct FixedComponent {
-  std::uint16_t node = 0;       ///< local node of the block
+  std::uint16_t node = 0;  ///< local node of the block
   std::uint8_t axis = 0;
   std::uint16_t condition = 0;
   std::uint16_t component = 0;  ///< of the condition
@@ -54,10 +54,10 @@ struct BlockLedger {
 
 /// What went wrong in a block during particle work.
 struct BlockHealth {
-  bool left_margin = false;   ///< a particle left the block's margin: re-order before the next step
+  bool left_margin = false;  ///< a particle left the block's margin: re-order before the next step
   bool bad_number = false;
   bool inverted = false;
-  bool moved_too_far = false; ///< more than a cell in a step
+  bool moved_too_far = false;  ///< more than a cell in a step
   bool left_grid = false;
   bool trouble() const { return bad_number || inverted || moved_too_far || left_grid; }
 };
@@ -94,13 +94,13 @@ struct State {
   std::vector<BlockScratch<Dim>> scratch;  ///< per block
   ContactMemory memory;
   std::vector<bool> condition_was_active;
-  std::vector<double> initial_volume;      ///< per node number: volume of the uncut body at the start, m2 or m3 (CONVENTIONS 10)
+  std::vector<double> initial_volume;  ///< per node number: volume of the uncut body at the start, m2 or m3 (CONVENTIONS 10)
   bool must_reorder = true;
   std::size_t particle_count = 0;
-  std::int64_t removed = 0;                ///< particles removed on leaving the grid
+  std::int64_t removed = 0;  ///< particles removed on leaving the grid
 
   EnergyTotals energy;
-  std::vector<Vec<Dim>> reactions;         ///< per condition, last step, N
+  std::vector<Vec<Dim>> reactions;  ///< per condition, last step, N
   std::int64_t most_unsolved_nodes = 0, most_crowded_nodes = 0;
   std::vector<Phase> phases;
 };

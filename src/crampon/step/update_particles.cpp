@@ -111,19 +111,20 @@ template <int Dim, class Shape>
 void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const std::vector<Vec<Dim>>& load_values) {
   if (state.scratch[b].loaded.empty()) return;
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
-  for_loaded<Dim, Shape>(state, model, b, [&](const LoadedParticle<Dim>& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets) {
-    const MotionRecord<Dim> m = interpolate<Dim, Shape>(stencil, targets, l, motion);
-    for (int k = 0; k < Dim; ++k) {
-      const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
-      state.scratch[b].ledger.load_work +=
-          model.loads[loaded.load].share[loaded.entry][k] * load_values[loaded.load][k] * (v - 0.5 * a * dt) * dt;
-    }
-  });
+  for_loaded<Dim, Shape>(state, model, b,
+                         [&](const LoadedParticle<Dim>& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets) {
+                           const MotionRecord<Dim> m = interpolate<Dim, Shape>(stencil, targets, l, motion);
+                           for (int k = 0; k < Dim; ++k) {
+                             const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
+                             state.scratch[b].ledger.load_work +=
+                                 model.loads[loaded.load].share[loaded.entry][k] * load_values[loaded.load][k] * (v - 0.5 * a * dt) * dt;
+                           }
+                         });
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                     \
-  template void update_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);             \
-  template void finish_particles<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, bool);            \
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                          \
+  template void update_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);  \
+  template void finish_particles<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, bool); \
   template void account_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const std::vector<Vec<DIM>>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
