@@ -125,7 +125,8 @@ bool solve_contact(const ContactRules& rules, const std::vector<ContactLawSpec>&
       b.dp += d;
       pair.J = J;
       change = std::fmax(change, norm(d));
-      largest = std::fmax(largest, norm(J));
+      // Round-off of J is that of the momenta it is made from, however small J itself is.
+      largest = std::fmax(largest, std::fmax(norm(J), m * (norm(a.p) / a.m + norm(b.p) / b.m)));
     }
     if (sweeps > 1) converged = change <= 1e-14 * largest;
   }
