@@ -7,10 +7,8 @@
 #include "crampon/core/parallel.hpp"
 #include "crampon/crack/crossing.hpp"
 #include "crampon/crack/facet_bins.hpp"
-#include "crampon/shape/bspline.hpp"
-#include "crampon/shape/gimp.hpp"
-#include "crampon/shape/linear.hpp"
 #include "crampon/step/assemble.hpp"
+#include "crampon/step/instantiate.hpp"
 
 namespace crampon {
 
@@ -345,12 +343,7 @@ void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model) {
 }
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE) template void assign_velocity_fields<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
-CRAMPON_INSTANTIATE(2, LinearShape)
-CRAMPON_INSTANTIATE(2, GimpShape)
-CRAMPON_INSTANTIATE(2, BsplineShape)
-CRAMPON_INSTANTIATE(3, LinearShape)
-CRAMPON_INSTANTIATE(3, GimpShape)
-CRAMPON_INSTANTIATE(3, BsplineShape)
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 
 }  // namespace crampon

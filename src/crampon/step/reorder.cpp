@@ -5,9 +5,7 @@
 
 #include "crampon/core/error.hpp"
 #include "crampon/core/parallel.hpp"
-#include "crampon/shape/bspline.hpp"
-#include "crampon/shape/gimp.hpp"
-#include "crampon/shape/linear.hpp"
+#include "crampon/step/instantiate.hpp"
 
 namespace crampon {
 
@@ -267,12 +265,7 @@ void find_touched_box(State<Dim>& state, const Model<Dim>& model, std::size_t b,
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                              \
   template void reorder<DIM, SHAPE>(State<DIM>&, const Model<DIM>&); \
   template void find_touched_box<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, Pack, Pack);
-CRAMPON_INSTANTIATE(2, LinearShape)
-CRAMPON_INSTANTIATE(2, GimpShape)
-CRAMPON_INSTANTIATE(2, BsplineShape)
-CRAMPON_INSTANTIATE(3, LinearShape)
-CRAMPON_INSTANTIATE(3, GimpShape)
-CRAMPON_INSTANTIATE(3, BsplineShape)
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 
 }  // namespace crampon
