@@ -2,47 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
+
+#include "crampon/contact/solve_together.hpp"
 
 namespace crampon {
 
 namespace {
 
-/// Tangential impulse that a law can carry against a normal impulse N >= 0, when sticking would take `stick` (contact.md 3, 4).
-double tangential_impulse(const ContactLawSpec& law, double N, double stick) {
-  return std::visit(
-      [&](const auto& l) -> double {
-        using Law = std::decay_t<decltype(l)>;
-        if constexpr (std::is_same_v<Law, CoulombContact>) {
-          return std::min(stick, l.friction * N);
-        } else if constexpr (std::is_same_v<Law, StickContact> || std::is_same_v<Law, BondedContact>) {
-          return stick;
-        } else {
-          return 0.;
-        }
-      },
-      law);
-}
-
-bool may_stick(const ContactLawSpec& law) {
-  return std::holds_alternative<CoulombContact>(law) || std::holds_alternative<StickContact>(law);
-}
-
-/// Impulse on b from a normal impulse D_n (along n, negative closes: then b is pushed along +n) and the law's share of the
-/// tangential one. D = m_red (v_b - v_a) is the stick impulse on a.
-template <int Dim>
-Vec<Dim> impulse_on_b(const ContactLawSpec& law, const Vec<Dim>& n, double normal, const Vec<Dim>& D_t, bool& sticks) {
-  const double stick = norm(D_t);
-  const double carried = tangential_impulse(law, std::fabs(normal), stick);
-  sticks = may_stick(law) && carried >= stick;
-  Vec<Dim> J = n * normal;
-  if (stick > 0) J -= D_t * (carried / stick);
-  return J;
-}
-
 /// The papers' rule, anew in each task (N03 section 2.2, N13 section 3).
 template <int Dim>
-Vec<Dim> literal_impulse(const ContactRules& rules, const ContactLawSpec& law, const ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
+Response<Dim> literal_response(const ContactRules& rules, const ContactLawSpec& law, const ContactPair<Dim>& pair, double m,
+                               const Vec<Dim>& w) {
   const double w_n = dot(w, pair.n);
   bool touching = false;
   if (rules.by_volume) {
@@ -54,42 +24,48 @@ Vec<Dim> literal_impulse(const ContactRules& rules, const ContactLawSpec& law, c
   } else {
     touching = w_n < 0 && pair.gap + w_n * rules.dt < 0;
   }
-  if (!touching || w_n == 0) return {};
-  bool sticks = false;
-  return impulse_on_b(law, pair.n, -m * w_n, (w - pair.n * w_n) * m, sticks);
+  Response<Dim> out;
+  if (!touching || w_n == 0) return out;
+  out.push(pair.n, m, w_n, 0);
+  out.rub(law, (w - pair.n * w_n) * m);
+  return out;
 }
 
 /// The lagged, consistent active set (contact-consistency.md, "The scheme").
 template <int Dim>
-Vec<Dim> consistent_impulse(const ContactRules& rules, const ContactLawSpec& law, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
+Response<Dim> consistent_response(const ContactRules& rules, const ContactLawSpec& law, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
   const double w_n = dot(w, pair.n);
   const Vec<Dim> D_t = (w - pair.n * w_n) * m;
   const double gap = pair.previous == ContactState::open ? pair.gap : std::fmin(pair.gap, 0.);
   const double bound = -std::fmax(gap, 0.) / rules.dt;
-  const auto hold = [&](double target, ContactState state) {
-    Vec<Dim> J = pair.n * (m * (target - w_n));
-    if (state == ContactState::stick) J -= D_t;
-    return J;
+  Response<Dim> out;
+  const auto test = [&] {
+    if (w_n >= bound) return;
+    out.push(pair.n, m, w_n, bound);
+    out.rub(law, D_t);
   };
   switch (rules.task) {
     case ContactTask::two:
-      if (pair.previous != ContactState::open) return hold(0., pair.previous);
+      if (pair.previous == ContactState::open) {
+        test();
+      } else {
+        out.push(pair.n, m, w_n, 0);
+        if (pair.previous == ContactState::stick) out.stick(D_t);
+      }
       break;
     case ContactTask::four:
+      test();
+      pair.state = !out.pushes ? ContactState::open : out.sticks ? ContactState::stick : ContactState::slip;
       break;
-    case ContactTask::six:
-      if (pair.state == ContactState::open) return {};
-      return hold(std::fmin(0., std::fmax(w_n, std::fmin(pair.w_end, 0.))), pair.state);
+    case ContactTask::six: {
+      if (pair.state == ContactState::open) break;
+      const double least = std::fmin(pair.w_end, 0.);
+      if (w_n > 0 || w_n < least) out.push(pair.n, m, w_n, w_n > 0 ? 0. : least);
+      if (pair.state == ContactState::stick) out.stick(D_t);
+      break;
+    }
   }
-  ContactState found = ContactState::open;
-  Vec<Dim> J;
-  if (w_n < bound) {
-    bool sticks = false;
-    J = impulse_on_b(law, pair.n, m * (bound - w_n), D_t, sticks);
-    found = sticks ? ContactState::stick : ContactState::slip;
-  }
-  if (rules.task == ContactTask::four) pair.state = found;
-  return J;
+  return out;
 }
 
 template <int Dim>
@@ -98,38 +74,81 @@ Vec<Dim> relative_velocity(const ContactGroup<Dim>* groups, const ContactPair<Di
   return (b.p + b.dp) * (1 / b.m) - (a.p + a.dp) * (1 / a.m);
 }
 
+/// The pairs of a node, solved one by one and together.
+template <int Dim>
+class NodeSolve {
+ public:
+  NodeSolve(const ContactRules& rules, const std::vector<ContactLawSpec>& laws, ContactGroup<Dim>* groups, int group_count,
+            ContactPair<Dim>* pairs, int pair_count)
+      : rules_(rules), laws_(laws), groups_(groups), group_count_(group_count), pairs_(pairs), pair_count_(pair_count) {
+    for (int g = 0; g < group_count; ++g) groups[g].dp = {};
+    for (int q = 0; q < pair_count; ++q) pairs[q].J = {};
+  }
+
+  bool run() {
+    if (pair_count_ == 1 || rules_.sequential) {
+      sweep();
+      return true;
+    }
+    responses_.resize(static_cast<std::size_t>(pair_count_));
+    for (int sweeps = 1; sweeps <= most_sweeps; ++sweeps) {
+      if (sweep()) return true;
+      if (sweeps % sweeps_between_solves == 0) {
+        solve_together<Dim>(rules_.fixed_axes, groups_, group_count_, pairs_, responses_, impulses_);
+        for (int q = 0; q < pair_count_; ++q) change_impulse(pairs_[q], impulses_[static_cast<std::size_t>(q)]);
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr int most_sweeps = 200;
+  static constexpr int sweeps_between_solves = 6;
+
+  /// Each pair against the others as they are now. True when nothing changed.
+  bool sweep() {
+    double largest = 0, change = 0;
+    for (int q = 0; q < pair_count_; ++q) {
+      ContactPair<Dim>& pair = pairs_[q];
+      const ContactGroup<Dim>&a = groups_[pair.a], &b = groups_[pair.b];
+      const double m = a.m * b.m / (a.m + b.m);
+      // Relative velocity as it would be without this pair's own impulse.
+      const Vec<Dim> w = relative_velocity(groups_, pair) - pair.J * (1 / m);
+      const ContactLawSpec& law = laws_[pair.crack];
+      const Response<Dim> response =
+          rules_.literal ? literal_response(rules_, law, pair, m, w) : consistent_response(rules_, law, pair, m, w);
+      change = std::fmax(change, change_impulse(pair, without_axes(response.J, rules_.fixed_axes)));
+      // Round-off of J is that of the momenta it is made from, however small J itself is.
+      largest = std::fmax(largest, std::fmax(norm(pair.J), m * (norm(a.p) / a.m + norm(b.p) / b.m)));
+      if (!responses_.empty()) responses_[static_cast<std::size_t>(q)] = response;
+    }
+    return change <= 1e-14 * largest;
+  }
+
+  double change_impulse(ContactPair<Dim>& pair, const Vec<Dim>& J) {
+    const Vec<Dim> d = J - pair.J;
+    groups_[pair.a].dp -= d;
+    groups_[pair.b].dp += d;
+    pair.J = J;
+    return norm(d);
+  }
+
+  const ContactRules& rules_;
+  const std::vector<ContactLawSpec>& laws_;
+  ContactGroup<Dim>* groups_;
+  int group_count_;
+  ContactPair<Dim>* pairs_;
+  int pair_count_;
+  std::vector<Response<Dim>> responses_;  ///< of the last sweep
+  std::vector<Vec<Dim>> impulses_;        ///< kg m/s, of the last common solution
+};
+
 }  // namespace
 
 template <int Dim>
 bool solve_contact(const ContactRules& rules, const std::vector<ContactLawSpec>& laws, ContactGroup<Dim>* groups, int group_count,
                    ContactPair<Dim>* pairs, int pair_count) {
-  for (int g = 0; g < group_count; ++g) groups[g].dp = {};
-  for (int q = 0; q < pair_count; ++q) pairs[q].J = {};
-  const int sweeps = pair_count == 1 || rules.sequential ? 1 : 200;
-  bool converged = sweeps == 1;
-  for (int sweep = 0; sweep < sweeps && !(converged && sweep > 0); ++sweep) {
-    double largest = 0, change = 0;
-    for (int q = 0; q < pair_count; ++q) {
-      ContactPair<Dim>& pair = pairs[q];
-      ContactGroup<Dim>&a = groups[pair.a], &b = groups[pair.b];
-      const double m = a.m * b.m / (a.m + b.m);
-      // Relative velocity as it would be without this pair's own impulse.
-      const Vec<Dim> w = relative_velocity(groups, pair) - pair.J * (1 / m);
-      const ContactLawSpec& law = laws[pair.crack];
-      Vec<Dim> J = rules.literal ? literal_impulse(rules, law, pair, m, w) : consistent_impulse(rules, law, pair, m, w);
-      for (int k = 0; k < Dim; ++k) {
-        if (rules.fixed_axes >> k & 1u) J[k] = 0;
-      }
-      const Vec<Dim> d = J - pair.J;
-      a.dp -= d;
-      b.dp += d;
-      pair.J = J;
-      change = std::fmax(change, norm(d));
-      // Round-off of J is that of the momenta it is made from, however small J itself is.
-      largest = std::fmax(largest, std::fmax(norm(J), m * (norm(a.p) / a.m + norm(b.p) / b.m)));
-    }
-    if (sweeps > 1) converged = change <= 1e-14 * largest;
-  }
+  const bool converged = NodeSolve<Dim>(rules, laws, groups, group_count, pairs, pair_count).run();
   if (rules.task == ContactTask::four) {
     for (int q = 0; q < pair_count; ++q) pairs[q].w_end = dot(relative_velocity(groups, pairs[q]), pairs[q].n);
   }

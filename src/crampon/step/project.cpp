@@ -47,16 +47,17 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
             const PairTarget t =
                 targets ? targets[l * T::stencil + n] : PairTarget{static_cast<std::uint16_t>(stencil.base[l] + T::steps[n]), 0, 0};
             const auto step = unflatten<Dim>(n, Shape::width);
-            ContactSums record{{splat(0.), splat(0.)}};
-            record.r[0][0] = volume[l];
+            Pack now = splat(0.), start = splat(0.);
+            now[0] = volume[l];
             for (int k = 0; k < Dim; ++k) {
               const double x_i = model.grid.node_coordinate(k, lowest[k] + step[k] + first_node[k] - T::offset);
               const double sign = t.flip >> k & 1u ? -m_p : m_p;
-              record.r[0][1 + k] = sign * (x_p[k] - x_i);
-              record.r[1][k] = sign * (X_p[k] - x_i);
+              now[1 + k] = sign * (x_p[k] - x_i);
+              start[k] = sign * (X_p[k] - x_i);
             }
             ContactSums& q = tiles[t.layer * T::nodes + t.node];
-            for (int r = 0; r < 2; ++r) q.r[r] = fused(splat(stencil.S[n][l]), record.r[r], q.r[r]);
+            q.r[0] = fused(splat(stencil.S[n][l]), now, q.r[0]);
+            q.r[1] = fused(splat(stencil.S[n][l]), start, q.r[1]);
           }
         }
       });
