@@ -13,8 +13,6 @@ if [ "${1:-}" = --full ]; then
 fi
 cmake/install_packages.sh build test
 cmake/build.sh release -DCRAMPON_TESTS=ON all
-# Threads that wait leave their core to the other test.
-export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
 # Two at a time; waiting threads sleep, so that tests beside each other do not slow each other down.
 export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
 exec ctest --test-dir build/release --output-on-failure --parallel 2 "${select[@]}" "$@"

@@ -33,7 +33,8 @@ Response<Dim> literal_response(const ContactRules& rules, const ContactLawSpec& 
 
 /// The lagged, consistent active set (contact-consistency.md, "The scheme").
 template <int Dim>
-Response<Dim> consistent_response(const ContactRules& rules, const ContactLawSpec& law, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
+Response<Dim> consistent_response(const ContactRules& rules, const ContactLawSpec& law, ContactPair<Dim>& pair, double m,
+                                  const Vec<Dim>& w) {
   const double w_n = dot(w, pair.n);
   const Vec<Dim> D_t = (w - pair.n * w_n) * m;
   const double gap = pair.previous == ContactState::open ? pair.gap : std::fmin(pair.gap, 0.);

@@ -84,9 +84,9 @@ void solve_together(unsigned fixed_axes, const ContactGroup<Dim>* groups, int gr
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                                      \
-  template void solve_together<DIM>(unsigned, const ContactGroup<DIM>*, int, const ContactPair<DIM>*,                 \
-                                    const std::vector<Response<DIM>>&, std::vector<Vec<DIM>>&);
+#define CRAMPON_INSTANTIATE(DIM)                                                                                                         \
+  template void solve_together<DIM>(unsigned, const ContactGroup<DIM>*, int, const ContactPair<DIM>*, const std::vector<Response<DIM>>&, \
+                                    std::vector<Vec<DIM>>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE

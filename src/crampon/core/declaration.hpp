@@ -177,15 +177,15 @@ class Declaration : public Record {
   }
 
   /// The unit of the key just declared follows from the word chosen at `choice_key`, declared before it.
-  Declaration& unit_by(std::string choice_key, std::vector<std::pair<std::string, std::string>> units) {
-    last_entry().unit_key = std::move(choice_key);
-    last_entry().units = std::move(units);
+  Declaration& unit_by(const std::string& choice_key, const std::vector<std::pair<std::string, std::string>>& units) {
+    last_entry().unit_key = choice_key;
+    last_entry().units = units;
     return *this;
   }
 
   /// The key just declared and `keys` contradict each other: giving both is an error.
-  Declaration& excludes(std::vector<std::string> keys) {
-    last_entry().excludes = std::move(keys);
+  Declaration& excludes(const std::vector<std::string>& keys) {
+    last_entry().excludes = keys;
     return *this;
   }
 

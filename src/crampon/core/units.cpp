@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <locale.h>
 #include <udunits2.h>
 
 namespace crampon {
@@ -200,7 +199,7 @@ class SquareParser {
 
 bool has_half_powers(const std::string& unit) {
   if (unit.find("sqrt") != std::string::npos) return true;
-  const std::size_t caret = unit.find_first_of("^");
+  const std::size_t caret = unit.find('^');
   return caret != std::string::npos && unit.find_first_of("./", caret) != std::string::npos;
 }
 

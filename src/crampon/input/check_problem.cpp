@@ -28,7 +28,7 @@ class ProblemChecker {
     if (broken("analysis")) return;
     if (!broken("grid")) check_grid();
     if (!broken("method")) check_length(problem_.method, "body_force", problem_.method.body_force.size());
-    for (std::size_t k = 0; k < problem_.bodies.size(); ++k) check_body(problem_.bodies[k]);
+    for (const BodyInput& body : problem_.bodies) check_body(body);
     for (const CrackInput& crack : problem_.cracks) check_crack(crack);
     for (const BoundaryInput& boundary : problem_.boundaries) check_boundary(boundary);
     for (const SymmetryInput& symmetry : problem_.symmetries) check_symmetry(symmetry);
@@ -147,7 +147,7 @@ class ProblemChecker {
     if (crack.arc) check_arc(*crack.arc);
   }
 
-  void check_arc(const CrackInput::Arc& arc) {
+  void check_arc(const ArcInput& arc) {
     const Vec<2> centre{{arc.centre[0], arc.centre[1]}};
     // Degrees: fine enough to see what leaves the grid, independent of the segments chosen later.
     for (const Vec<2>& x : divide_arc(centre, arc.radius, arc.from, arc.to, 360))

@@ -147,17 +147,16 @@ const Declaration<BodyInput>& body_declaration() {
   return d;
 }
 
-const Declaration<CrackInput::Arc>& arc_declaration() {
-  using Arc = CrackInput::Arc;
+const Declaration<ArcInput>& arc_declaration() {
   static const auto d =
-      Declaration<Arc>("arc", "Part of a circle.")
-          .quantities("centre", &Arc::centre, "m", Bounds::any(), "centre of the circle", required, Length::exactly(2))
-          .quantity("radius", &Arc::radius, "m", Bounds::positive(), "radius of the circle", required)
-          .quantity("from", &Arc::from, "rad", Bounds::any(), "angle of the first point, counter-clockwise from the x axis", required)
-          .quantity("to", &Arc::to, "rad", Bounds::any(), "angle of the last point; below from: the arc runs clockwise", required)
-          .integer("segments", &Arc::segments, Bounds::between(0, 1000000),
+      Declaration<ArcInput>("arc", "Part of a circle.")
+          .quantities("centre", &ArcInput::centre, "m", Bounds::any(), "centre of the circle", required, Length::exactly(2))
+          .quantity("radius", &ArcInput::radius, "m", Bounds::positive(), "radius of the circle", required)
+          .quantity("from", &ArcInput::from, "rad", Bounds::any(), "angle of the first point, counter-clockwise from the x axis", required)
+          .quantity("to", &ArcInput::to, "rad", Bounds::any(), "angle of the last point; below from: the arc runs clockwise", required)
+          .integer("segments", &ArcInput::segments, Bounds::between(0, 1000000),
                    "number of straight segments; 0: as many as max_segment asks for")
-          .check([](const Arc& in, Diagnostics& diagnostics) {
+          .check([](const ArcInput& in, Diagnostics& diagnostics) {
             constexpr double full_turn = 6.283185307179586;
             if (in.from == in.to) diagnostics.add("to", "from and to are the same angle", "the arc has no length", "change one of them");
             if (std::abs(in.to - in.from) > full_turn * (1 + 1e-12))  // round-off of 360 deg

@@ -87,17 +87,19 @@ struct BodyInput : Located {
   std::vector<double> spin_centre;                  ///< m; default: the body's centre of mass
 };
 
+/// The arc of a crack.
+struct ArcInput : Located {
+  std::vector<double> centre;  ///< m
+  double radius = 0;           ///< m
+  double from = 0, to = 0;     ///< rad, counter-clockwise positive; to < from runs clockwise
+  std::int64_t segments = 0;   ///< 0: segments of at most half a cell
+};
+
 /// [[crack]]: a polyline, or an arc divided into segments. 2D.
 struct CrackInput : Located {
   std::string name;
   std::vector<std::vector<double>> points;  ///< m; at least two
-  struct Arc : Located {
-    std::vector<double> centre;  ///< m
-    double radius = 0;           ///< m
-    double from = 0, to = 0;     ///< rad, counter-clockwise positive; to < from runs clockwise
-    std::int64_t segments = 0;   ///< 0: segments of at most half a cell
-  };
-  std::optional<Arc> arc;
+  std::optional<ArcInput> arc;
   std::optional<double> max_segment;  ///< m; longer segments are divided evenly; default: half a cell
   bool fixed = false;                 ///< fixed in space
   ContactLawSpec contact;             ///< law between its faces (contact/law.hpp)
