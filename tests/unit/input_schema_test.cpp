@@ -33,7 +33,7 @@ TEST(ToyLaw, IsSeenByParserSchemaReferenceAndResolvedInput) {
       Declaration<ToyMaterial>("toy_putty", "Putty that a test made up.")
           .quantity("E", &ToyMaterial::E, "Pa", Bounds::positive(), "stiffness of the putty", Presence::required)
           .quantity("density", &ToyMaterial::density, "kg/m3", Bounds::positive(), "mass per initial volume", Presence::required);
-  const MaterialSpec existing = read_problem_text(base_input(), "in.toml").materials[0].law;
+  MaterialSpec existing = read_problem_text(base_input(), "in.toml").materials[0].law;
   materials().add(declaration, [existing](ToyMaterial m) -> MaterialSpec {
     if (m.E > 1e9) throw std::invalid_argument("that is no putty");
     return existing;

@@ -265,7 +265,7 @@ TEST_P(Law, StoresTheWorkDoneOnIt) {
     for (int step = 0; step < steps; ++step) {
       const double t = (step + 0.5) / steps;
       // In the turning frame: a path that goes on, bends and partly returns.
-      const Matrix3d L = rate * std::cos(4 * t) + spin;
+      Matrix3d L = rate * std::cos(4 * t) + spin;
       points.update([&](int) { return L; }, 1. / steps);
       const Matrix3d now = points.answer(0).stress;
       work += (0.5 * (before + now).array() * L.array()).sum() / steps;

@@ -1,9 +1,9 @@
 // What a run writes can be read back, bit for bit; damage and full disks are told; pictures show what they should, pixel by pixel.
 
+#include <csignal>
 #include <fcntl.h>
 #include <png.h>
 #include <sched.h>
-#include <signal.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -1,8 +1,8 @@
 #include "crampon/core/units.hpp"
 
+#include <clocale>
 #include <cmath>
 #include <limits>
-#include <locale.h>
 #include <numbers>
 #include <random>
 #include <thread>

@@ -21,16 +21,16 @@ struct Tile {
 
   /// Tile index of stencil node n relative to the stencil's lowest node.
   static constexpr std::array<int, stencil> make_steps() {
-    std::array<int, stencil> steps{};
+    std::array<int, stencil> out{};
     for (int n = 0; n < stencil; ++n) {
       int rest = n, stride = 1;
       for (int k = 0; k < Dim; ++k) {
-        steps[n] += rest % Shape::width * stride;
+        out[n] += rest % Shape::width * stride;
         rest /= Shape::width;
         stride *= side;
       }
     }
-    return steps;
+    return out;
   }
   static constexpr std::array<int, stencil> steps = make_steps();
 };

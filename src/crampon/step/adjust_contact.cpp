@@ -227,8 +227,8 @@ class NodeFinder {
     ContactKey key{number, pair.crack, pair.others};
     for (const auto& k : cracks_) {
       if (k.crack == pair.crack || is_bonded(model_.crack_laws, k.crack)) continue;
-      const int before = state_.memory.side(number, k.crack);
-      if (before != 0 && before != (k.side > 0) - (k.side < 0)) key.others.toggle(k.crack);
+      const double before = state_.memory.side(number, k.crack);
+      if (before * k.side < 0) key.others.toggle(k.crack);
     }
     return state_.memory.find(key);
   }
