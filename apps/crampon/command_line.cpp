@@ -10,6 +10,15 @@
 namespace crampon::app {
 namespace {
 
+/// CLI11's own says the largest number there is in 309 digits.
+const CLI::Validator positive(
+    [](std::string& text) {
+      char* end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      return end != text.c_str() && *end == '\0' && value > 0 ? std::string() : text + " is not a positive number";
+    },
+    "");
+
 constexpr const char* examples = R"(Examples:
   crampon init crack                     write crack.toml, a commented input to start from
   crampon validate crack.toml            check it and tell what would run
@@ -72,7 +81,7 @@ int run_command_line(int argc, const char* const* argv) {
   sub->add_option("-o,--output", run.output, "folder for the results; left out: the input's name with .results, in the present folder")
       ->type_name("DIR");
   add_settings(*sub, run.settings, run.threads);
-  sub->add_option("--steps", run.steps, "end after so many steps, to try an input")->type_name("N")->check(CLI::PositiveNumber);
+  sub->add_option("--steps", run.steps, "end after so many steps, to try an input")->type_name("N")->check(positive);
   sub->add_flag("-f,--force", run.force, "replace older results in the folder");
   sub->add_flag("-q,--quiet", run.quiet, "print errors only");
   sub->footer("Example: crampon run crack.toml --set time.end=\"1 ms\" --output longer.results");
@@ -107,7 +116,7 @@ int run_command_line(int argc, const char* const* argv) {
   sub->add_flag("--all", draw.all, "a picture of every frame, with one colour range")->excludes(frames)->excludes(times);
   sub->add_option("--panel", draw.panel, "one picture of several frames in rows and columns; without --frame or --time evenly spread")
       ->type_name("RxC");
-  sub->add_option("--magnify", draw.magnify, "draw displacements this many times larger")->type_name("FACTOR")->check(CLI::PositiveNumber);
+  sub->add_option("--magnify", draw.magnify, "draw displacements this many times larger")->type_name("FACTOR")->check(positive);
   sub->add_option("--range", draw.range, "ends of the colour range, e.g. \"-5 MPa\" \"5 MPa\"")->type_name("LOW HIGH")->expected(2);
   sub->add_flag("--symmetric", draw.symmetric, "colour range symmetric about zero");
   sub->add_option("--window", draw.window, "part to draw, m or with units")->type_name("X0 X1 Y0 Y1")->expected(4);

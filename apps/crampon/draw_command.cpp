@@ -70,20 +70,29 @@ std::vector<std::size_t> choose_frames(const DrawArguments& arguments, const std
   return chosen;
 }
 
-DrawOptions picture_options(const DrawArguments& arguments, const std::string& title) {
+/// Picture or folder to write to: what has an extension is a picture.
+void check_picture_name(const DrawArguments& arguments) {
+  const fs::path extension = fs::path(arguments.output).extension();
+  if (!extension.empty() && extension != ".png")
+    throw UsageError(fmt::format("--output {}: pictures are PNG files; name it *.png, or a folder", arguments.output));
+}
+
+std::string coloured_by(const DrawArguments& arguments) {
+  if (arguments.fringes) return "fringes";
+  return arguments.quantity.empty() ? DrawOptions().quantity : arguments.quantity;
+}
+
+/// unit: of the quantity drawn.
+DrawOptions picture_options(const DrawArguments& arguments, const std::string& title, const std::string& unit) {
   DrawOptions options;
-  if (!arguments.quantity.empty()) options.quantity = arguments.quantity;
-  if (arguments.fringes) {
-    if (!arguments.quantity.empty()) throw UsageError("--fringes and --quantity are both given; each says what to colour by");
-    options.quantity = "fringes";
-  }
+  options.quantity = coloured_by(arguments);
   if (arguments.palette == "uniform") options.palette = Palette::uniform;
   if (arguments.palette == "grey") options.palette = Palette::grey;
   if (arguments.palette == "diverging") options.palette = Palette::diverging;
   if (arguments.symmetric) options.range = ColourRange::symmetric;
   if (arguments.range.size() == 2) {
-    options.lowest = number(arguments.range[0], "--range", "any");
-    options.highest = number(arguments.range[1], "--range", "any");
+    options.lowest = number(arguments.range[0], "--range", unit.c_str());
+    options.highest = number(arguments.range[1], "--range", unit.c_str());
     if (!(*options.lowest < *options.highest)) throw UsageError("--range: the first value must be below the second");
   }
   if (arguments.window.size() == 4) {
@@ -167,7 +176,10 @@ void draw_pictures(const DrawArguments& arguments, const ResultsFolder& folder, 
   const std::vector<PvdEntry> frames = folder.particle_frames(), cracks = folder.crack_frames();
   if (frames.empty()) throw UsageError(fmt::format("{}: there are no frames to draw", folder.path().string()));
   const std::vector<std::size_t> chosen = choose_frames(arguments, frames);
-  DrawOptions options = picture_options(arguments, title);
+  if (arguments.fringes && !arguments.quantity.empty())
+    throw UsageError("--fringes and --quantity are both given; each says what to colour by");
+  const std::string unit = evaluate_quantity(folder.read_particles(frames[chosen.front()]), coloured_by(arguments)).unit;
+  DrawOptions options = picture_options(arguments, title, unit.empty() ? "1" : unit);
 
   if (!arguments.panel.empty()) {
     std::deque<Moment> moments;
@@ -194,6 +206,10 @@ void draw_pictures(const DrawArguments& arguments, const ResultsFolder& folder, 
 }  // namespace
 
 int draw_command(const DrawArguments& arguments) {
+  check_picture_name(arguments);
+  if (!arguments.compare.empty() && arguments.history.empty()) throw UsageError("--compare: only plots of --history compare runs");
+  if (!std::isfinite(arguments.magnify)) throw UsageError("--magnify: a finite number is needed");
+  if (arguments.fringe_constant && !(*arguments.fringe_constant > 0)) throw UsageError("--fringe-constant: a positive number is needed");
   const ResultsFolder folder = ResultsFolder::open(arguments.results);
   const std::string title = arguments.title.value_or(read_run_record(folder.run_record()).title);
   try {

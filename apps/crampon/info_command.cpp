@@ -22,10 +22,12 @@ void print_frames(const char* name, const std::vector<PvdEntry>& frames) {
 void print_record(const RunRecord& record) {
   if (!record.title.empty()) line("title", record.title);
   line("input", record.input);
-  line("status", record.status);
+  const bool cut_short = record.status == "running";
+  line("status", cut_short ? "running, or ended without a word (killed); what follows is from its frames" : record.status);
   line("started", record.started);
   line("program", fmt::format("crampon {}, {}, {}", record.version, record.compiler, record.instruction_set));
   line("particles", count_text(static_cast<double>(record.particles)));
+  if (cut_short) return;
   line("steps", fmt::format("{}, the first of {:.6g} s", count_text(static_cast<double>(record.steps)), record.time_step));
   line("end time", fmt::format("{:.6g} s", record.end_time));
   line("wall time",

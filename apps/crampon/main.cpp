@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include <fmt/format.h>
@@ -39,6 +40,8 @@ int explain_error() {
     return fail(exit_run_stopped, error.what());
   } catch (const std::bad_alloc&) {
     return fail(exit_system_error, "not enough memory; use fewer particles or larger cells (`crampon validate` tells how much is needed)");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(exit_system_error, fmt::format("{}: {}", error.path1().string(), error.code().message()));
   } catch (const std::exception& error) {
     return fail(exit_system_error, error.what());
   } catch (...) {

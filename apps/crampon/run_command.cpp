@@ -50,11 +50,11 @@ void print_end(const Problem& problem, const RunOutcome& outcome) {
   for (const std::string& note : record.notes) fmt::print("{} {}\n", styled(stdout, Style::yellow, "note:"), note);
   if (outcome.end == RunOutcome::End::finished && !problem.expects.empty())
     fmt::print("\n{}", check_table(check_results(ResultsFolder::open(outcome.folder), problem)));
-  const std::string folder = outcome.folder.string();
+  const std::string folder = shell_quoted(outcome.folder.string());
   fmt::print("\nResults are in {}\n", styled(stdout, Style::bold, folder));
   fmt::print("  pictures:  {} draw {}\n", command_name(), folder);
   fmt::print("  plots:     {} draw {} --history kinetic_energy strain_energy\n", command_name(), folder);
-  fmt::print("  ParaView:  paraview {}\n", (outcome.folder / "particles.pvd").string());
+  fmt::print("  ParaView:  paraview {}\n", shell_quoted((outcome.folder / "particles.pvd").string()));
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include "terminal.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 
@@ -62,11 +65,31 @@ std::string count_text(double count) {
   return digits;
 }
 
+std::string shell_quoted(const std::string& path) {
+  const bool plain = !path.empty() && std::all_of(path.begin(), path.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c >= 0x80 || std::string_view("_-./+,:@%=").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (plain) return path;
+  std::string out = "'";
+  for (const char c : path) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+namespace {
+
+/// Columns of the terminal; 80 when it does not say.
+std::size_t terminal_width(std::FILE* stream) {
+  winsize size{};
+  return ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
+
 std::string ProgressLine::text(const Progress& p) const {
   const double done = p.end_time > 0 ? std::min(1., p.time / p.end_time) : 1.;
   const double left = done > 0 ? p.wall_seconds * (1 - done) / done : std::numeric_limits<double>::infinity();
   const double rate = p.wall_seconds > 0 ? static_cast<double>(p.step) * static_cast<double>(p.particles) / p.wall_seconds : 0;
-  return fmt::format("{:3.0f} %  step {}  t = {:.4g} s of {:.4g} s  {} left  {:.2f} M particle-steps/s", std::floor(100 * done),
+  return fmt::format("{:3.0f} %  step {}  t = {:.4g} of {:.4g} s  {} left  {:.2f} M particle-steps/s", std::floor(100 * done),
                      count_text(static_cast<double>(p.step)), p.time, p.end_time, duration_text(left), rate * 1e-6);
 }
 
@@ -77,7 +100,7 @@ void ProgressLine::show(const Progress& progress) {
   if (progress.wall_seconds - last_shown_ < (terminal_ && first ? 0 : interval)) return;
   last_shown_ = progress.wall_seconds;
   if (terminal_) {
-    fmt::print(stderr, "\r{}\x1b[K", text(progress));
+    fmt::print(stderr, "\r{}\x1b[K", text(progress).substr(0, terminal_width(stderr) - 1));  // a line that wraps cannot be taken back
     open_ = true;
   } else {
     fmt::print(stderr, "{}\n", text(progress));

@@ -23,6 +23,9 @@ std::string bytes_text(double bytes);
 /// 1234567 as "1 234 567".
 std::string count_text(double count);
 
+/// A path as a shell takes it: in quotes where it has blanks or other signs of the shell's.
+std::string shell_quoted(const std::string& path);
+
 /// Progress of a run on stderr: one line rewritten in place on a terminal, a plain line every few seconds elsewhere.
 class ProgressLine {
  public:

@@ -152,6 +152,46 @@ TYPED_TEST(ContactPairs, ACommonVelocityDoesNotMatter) {
   }
 }
 
+/// CONVENTIONS 13: where sweeps over the pairs settle, that is the solution; ring-like contacts have others, with other shares.
+TYPED_TEST(ContactPairs, ASolutionOfPlainSweepsIsKept) {
+  constexpr int Dim = TypeParam::value;
+  Random random(12);
+  constexpr double friction = 0.3;
+  int settled = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    Node<Dim> node = random_node<Dim>(random, CoulombContact{friction}, 4);
+    for (auto& pair : node.pairs) pair.gap = -h;
+    ContactRules rules = literal_rules();
+    Node<Dim> swept = node;
+    std::vector<Vec<Dim>> J(swept.pairs.size());
+    bool done = false;
+    for (int sweep = 0; sweep < 200 && !done; ++sweep) {
+      double change = 0;
+      for (std::size_t q = 0; q < J.size(); ++q) {
+        const auto& pair = swept.pairs[q];
+        const double m = swept.reduced_mass(pair);
+        const Vec<Dim> w = swept.after(pair) - J[q] * (1 / m);
+        Vec<Dim> next;
+        if (const double w_n = dot(w, pair.n); w_n < 0) {
+          const Vec<Dim> slip = tangential_part(w, pair.n);
+          const double stick = m * norm(slip), most = -friction * m * w_n;
+          next = pair.n * (-m * w_n) - slip * (stick > most ? most / norm(slip) : m);
+        }
+        swept.groups[static_cast<std::size_t>(pair.a)].dp -= next - J[q];
+        swept.groups[static_cast<std::size_t>(pair.b)].dp += next - J[q];
+        change = std::fmax(change, norm(next - J[q]));
+        J[q] = next;
+      }
+      done = change <= 1e-15 * swept.momentum();
+    }
+    if (!done) continue;
+    ++settled;
+    ASSERT_TRUE(node.solve(rules)) << "trial " << trial;
+    for (int g = 0; g < 4; ++g) ASSERT_LT(norm(node.velocity_after(g) - swept.velocity_after(g)), after_sweeps * node.speed());
+  }
+  EXPECT_GT(settled, 300);
+}
+
 /// A thin sliver between two thick pieces, as beside an acute crossing: what passes through the light field must come out at the other end.
 TYPED_TEST(ContactPairs, LightFieldBetweenHeavyOnes) {
   constexpr int Dim = TypeParam::value;

@@ -156,6 +156,17 @@ TEST(ReadProblem, FilesAreRelativeToTheInput) {
     EXPECT_NE(std::string(error.what()).find(":19:20: method.damping: line 3 of the file is not \"time,value\""), std::string::npos)
         << error.what();
   }
+  const auto damping_of = [&](const std::string& table) {
+    std::ofstream(place / "data/pull.csv") << table;
+    return read_problem((place / "in.toml").string()).method.damping(0, {});
+  };
+  EXPECT_EQ(damping_of("\xef\xbb\xbf"
+                       "1,2\n2,3\n"),
+            2000.)
+      << "a byte order mark is no header";
+  EXPECT_EQ(damping_of("t [s], kappa\n1,2\n"), 2000.);
+  for (const char* wrong : {"0;1\n1,2\n", "0,1,2\n1,2\n", "0,nan\n1,2\n", "nan,1\n1,2\n", "t\n1,2\n", "t,k\nt,k\n1,2\n", "t,k\n", ""})
+    EXPECT_THROW(damping_of(wrong), InputError) << wrong;
   std::filesystem::remove_all(place);
 }
 

@@ -377,10 +377,28 @@ TEST_F(Output, ForceLeavesLinkedFoldersAlone) {
   fs::create_directories(path);
   write_file(other / "particles_000000.vtp", "somebody else's");
   fs::create_directory_symlink(other, path / "particles");
-  write_file(path / "run.json", "{}");
+  write_run_record(path / "run.json", describe_program());
   ResultsFolder::create(path, Overwrite::replace);
   EXPECT_FALSE(fs::exists(path / "run.json"));
   EXPECT_TRUE(fs::exists(other / "particles_000000.vtp"));
+}
+
+TEST_F(Output, ForceLeavesAloneWhatNoRunWrote) {
+  const fs::path path = folder / "mine";
+  fs::create_directories(path);
+  write_file(path / "history.csv", "my own");
+  EXPECT_THROW(ResultsFolder::create(path, Overwrite::replace), ResultsExist);
+  write_file(path / "run.json", "{\"program\": \"another\"}");
+  EXPECT_TRUE(contains(message_of([&] { ResultsFolder::create(path, Overwrite::replace); }), "no run.json of Crampon"));
+  EXPECT_EQ(read_file(path / "history.csv"), "my own");
+  // A run's own pictures go with it: they would show the old one.
+  write_run_record(path / "run.json", describe_program());
+  fs::create_directories(path / "pictures");
+  write_file(path / "pictures" / "history.png", "");
+  write_file(path / "pictures" / "sketch.svg", "");
+  ResultsFolder::create(path, Overwrite::replace);
+  EXPECT_FALSE(fs::exists(path / "pictures" / "history.png"));
+  EXPECT_TRUE(fs::exists(path / "pictures" / "sketch.svg"));
 }
 
 // Lets files grow to a few bytes only, as a disk that fills up within one file.

@@ -60,6 +60,7 @@ struct Toy {
   PackReport report(const Pack*, const Pack* history) const {
     PackReport r{};
     for (int l = 0; l < lanes; ++l) r.volume_ratio[l] = std::exp(history[0][l]);
+    r.area_ratio = r.volume_ratio;
     r.to_cauchy = 1. / r.volume_ratio;
     r.energy = 0.5 * bulk_modulus * history[0] * history[0];
     r.strain[0] = history[0];

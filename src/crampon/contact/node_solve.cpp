@@ -9,6 +9,16 @@ namespace crampon {
 
 namespace {
 
+/// No detection (CONVENTIONS 44). Such pairs are there only when pairs are done one after another; else bonded fields are one group.
+template <int Dim>
+Response<Dim> bonded_response(const ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
+  Response<Dim> out;
+  const double w_n = dot(w, pair.n);
+  out.push(pair.n, m, w_n, 0);
+  out.stick((w - pair.n * w_n) * m);
+  return out;
+}
+
 /// The papers' rule, anew in each task (N03 section 2.2, N13 section 3).
 template <int Dim>
 Response<Dim> literal_response(const ContactRules& rules, const ContactLawSpec& law, const ContactPair<Dim>& pair, double m,
@@ -91,20 +101,34 @@ class NodeSolve {
       sweep();
       return true;
     }
-    responses_.resize(static_cast<std::size_t>(pair_count_));
-    for (int sweeps = 1; sweeps <= most_sweeps; ++sweeps) {
+    for (int sweeps = 0; sweeps < most_sweeps; ++sweeps) {
       if (sweep()) return true;
-      if (sweeps % sweeps_between_solves == 0) {
-        solve_together<Dim>(rules_.fixed_axes, groups_, group_count_, pairs_, responses_, impulses_);
-        for (int q = 0; q < pair_count_; ++q) change_impulse(pairs_[q], impulses_[static_cast<std::size_t>(q)]);
-      }
     }
-    return false;
+    return help_along();
   }
 
  private:
-  static constexpr int most_sweeps = 200;
-  static constexpr int sweeps_between_solves = 6;
+  static constexpr int most_sweeps = 200;  // CONVENTIONS 13
+
+  /// Where sweeps are slow (a light field between heavy ones), solutions for the states they have found so far, and sweeps that judge
+  /// them. Where nothing settles, what the first sweeps have reached is kept.
+  bool help_along() {
+    constexpr int most_solutions = 20, sweeps_between = 6;
+    std::vector<Vec<Dim>> reached, solution;
+    for (int q = 0; q < pair_count_; ++q) reached.push_back(pairs_[q].J);
+    responses_.resize(static_cast<std::size_t>(pair_count_));
+    sweep();
+    for (int solutions = 0; solutions < most_solutions; ++solutions) {
+      solve_together<Dim>(rules_.fixed_axes, groups_, group_count_, pairs_, responses_, solution);
+      change_impulses(solution);
+      for (int sweeps = 0; sweeps < sweeps_between; ++sweeps) {
+        if (sweep()) return true;
+      }
+    }
+    change_impulses(reached);
+    sweep();  // states that belong to these impulses
+    return false;
+  }
 
   /// Each pair against the others as they are now. True when nothing changed.
   bool sweep() {
@@ -116,8 +140,9 @@ class NodeSolve {
       // Relative velocity as it would be without this pair's own impulse.
       const Vec<Dim> w = relative_velocity(groups_, pair) - pair.J * (1 / m);
       const ContactLawSpec& law = laws_[pair.crack];
-      const Response<Dim> response =
-          rules_.literal ? literal_response(rules_, law, pair, m, w) : consistent_response(rules_, law, pair, m, w);
+      const Response<Dim> response = std::holds_alternative<BondedContact>(law) ? bonded_response(pair, m, w)
+                                     : rules_.literal                           ? literal_response(rules_, law, pair, m, w)
+                                                                                : consistent_response(rules_, law, pair, m, w);
       change = std::fmax(change, change_impulse(pair, without_axes(response.J, rules_.fixed_axes)));
       // Round-off of J is that of the momenta it is made from, however small J itself is.
       largest = std::fmax(largest, std::fmax(norm(pair.J), m * (norm(a.p) / a.m + norm(b.p) / b.m)));
@@ -134,14 +159,17 @@ class NodeSolve {
     return norm(d);
   }
 
+  void change_impulses(const std::vector<Vec<Dim>>& impulses) {
+    for (int q = 0; q < pair_count_; ++q) change_impulse(pairs_[q], impulses[static_cast<std::size_t>(q)]);
+  }
+
   const ContactRules& rules_;
   const std::vector<ContactLawSpec>& laws_;
   ContactGroup<Dim>* groups_;
   int group_count_;
   ContactPair<Dim>* pairs_;
   int pair_count_;
-  std::vector<Response<Dim>> responses_;  ///< of the last sweep
-  std::vector<Vec<Dim>> impulses_;        ///< kg m/s, of the last common solution
+  std::vector<Response<Dim>> responses_;  ///< of the last sweep, once they are wanted
 };
 
 }  // namespace

@@ -123,6 +123,7 @@ class ProblemChecker {
     check_reference(body, "material", body.material, problem_.materials, "material");
     if (broken(body)) return;
     check_shape(body, "shape", body.shape);
+    check_in_grid(body);
     check_length(body, "velocity", body.velocity.size());
     check_length(body, "spin_centre", body.spin_centre.size());
     const std::size_t turns = dimension() == 2 ? 1 : 3;
@@ -132,6 +133,22 @@ class ProblemChecker {
     if (dimension() == 3 && body.thickness != 1) add(body, "thickness", "a body in space has no thickness", words(), "remove thickness");
   }
 
+  // A finite shape that reaches out of the grid would be cut off silently.
+  void check_in_grid(const BodyInput& body) {
+    if (!grid_known_ || !body.shape || (body.shape->dimension() != 0 && body.shape->dimension() != problem_.dimension())) return;
+    const Bounds3 box = body.shape->bounds();
+    for (std::size_t k = 0; k < dimension(); ++k) {
+      const double low = problem_.grid.origin[k], high = low + problem_.grid.size[k];
+      const bool below = std::isfinite(box.low[k]) && box.low[k] < low - slack(k),
+                 above = std::isfinite(box.high[k]) && box.high[k] > high + slack(k);
+      if (!below && !above) continue;
+      add(body, "shape", fmt::format("the body \"{}\" reaches out of the grid", body.name),
+          fmt::format("along {} it spans {:.6g} to {:.6g} m, the grid {:.6g} to {:.6g} m", "xyz"[k], box.low[k], box.high[k], low, high),
+          "enlarge the grid or move the body");
+      return;
+    }
+  }
+
   void check_crack(const CrackInput& crack) {
     if (broken(crack)) return;
     if (dimension() == 3) {
@@ -139,12 +156,26 @@ class ProblemChecker {
       return;
     }
     if (!grid_known_) return;
+    check_segments(crack);
     for (std::size_t k = 0; k < crack.points.size(); ++k)
       if (!in_grid(crack.points[k]))
         add(crack, fmt::format("points[{}]", k),
             fmt::format("the point ({:g}, {:g}) m is outside the grid", crack.points[k][0], crack.points[k][1]), grid_text(),
             "move the point or enlarge the grid");
     if (crack.arc) check_arc(*crack.arc);
+  }
+
+  // Segments far below a cell show nothing that nodes can tell apart, and each costs time in every step.
+  void check_segments(const CrackInput& crack) {
+    constexpr double least_cells = 0.01;
+    const double least = least_cells * std::min(cell(0), cell(1));
+    if (crack.max_segment && *crack.max_segment < least)
+      add(crack, "max_segment", fmt::format("{:g} m is less than a hundredth of a cell", *crack.max_segment),
+          "so many segments cost time in every step and add nothing", fmt::format("make it {:g} m or more", least));
+    if (crack.arc && crack.arc->segments > 0 &&
+        crack.arc->radius * std::abs(crack.arc->to - crack.arc->from) < least * static_cast<double>(crack.arc->segments))
+      add(*crack.arc, "segments", fmt::format("{} segments are shorter than a hundredth of a cell", crack.arc->segments),
+          "so many cost time in every step and add nothing", "use fewer, or leave segments out");
   }
 
   void check_arc(const ArcInput& arc) {
@@ -160,6 +191,9 @@ class ProblemChecker {
   void check_boundary(const BoundaryInput& boundary) {
     if (broken(boundary)) return;
     check_shape(boundary, "region", boundary.region);
+    if (!broken("time") && problem_.time.end && boundary.start >= *problem_.time.end)
+      add(boundary, "start", fmt::format("the condition starts at {:g} s", boundary.start),
+          fmt::format("the run ends at {:g} s", *problem_.time.end), "start it earlier");
     if (dimension() == 2 && boundary.vz) add(boundary, "vz", "vz is given", words(), "remove it");
   }
 

@@ -108,7 +108,7 @@ class FunctionTableReader {
     return ValueFunction::table(*times, *values);
   }
 
-  // Two columns, time in s and value; empty lines, # comments and one header line are passed over.
+  // Two columns, time in s and value; empty lines, # comments and a first line of words are passed over.
   std::optional<ValueFunction> read_file() {
     Entry entry = plain_entry(Entry::Kind::text, "file", "", "a CSV file with the columns time and value");
     entry.file = true;
@@ -119,20 +119,36 @@ class FunctionTableReader {
     std::vector<double> times, values;
     std::string line;
     int count = 0;
+    bool first = true;
     while (std::getline(in, line)) {
-      ++count;
+      if (++count == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // a byte order mark
       if (!line.empty() && line.back() == '\r') line.pop_back();
       if (line.find_first_not_of(" \t") == std::string::npos || line[line.find_first_not_of(" \t")] == '#') continue;
+      const bool may_be_header = std::exchange(first, false);
       double pair[2];
       if (read_two(line, pair)) {
         times.push_back(pair[0]);
         values.push_back(*scale * pair[1]);
-      } else if (!times.empty() || count > 1) {
+      } else if (!may_be_header || !is_header(line)) {
         return complain(*table_.get("file"), fmt::format("line {} of the file is not \"time,value\"", count),
                         "each line holds two numbers and a comma", "correct the file");
       }
     }
+    if (times.empty())
+      return complain(*table_.get("file"), "the file holds no times", "a table has at least one", "add lines \"time,value\"");
     return ValueFunction::table(std::move(times), std::move(values));
+  }
+
+  // Two words and a comma; no number, good or bad.
+  static bool is_header(const std::string& line) {
+    const auto begins_word = [&](std::size_t at) {
+      at = line.find_first_not_of(" \t\"", at);
+      if (at == std::string::npos || (std::isalpha(static_cast<unsigned char>(line[at])) == 0 && line[at] != '_')) return false;
+      const std::string start = line.substr(at, 3);
+      return start != "nan" && start != "inf" && start != "NaN" && start != "Inf";
+    };
+    const std::size_t comma = line.find(',');
+    return comma != std::string::npos && begins_word(0) && begins_word(comma + 1);
   }
 
   static bool read_two(const std::string& line, double (&pair)[2]) {

@@ -5,6 +5,7 @@
 #include <any>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -188,9 +189,10 @@ struct Problem : Located {
   std::vector<ProbeInput> probes;
   OutputInput output;
   std::vector<ExpectInput> expects;
-  std::string source;     ///< the input text
-  std::string resolved;   ///< the same with every default explicit, in SI, as TOML (write_resolved)
-  std::string directory;  ///< files named in the input are relative to it
+  std::string source;                          ///< the input text
+  std::map<std::string, std::string> written;  ///< texts of quantities of any dimension, by place ("expect[0].value")
+  std::string resolved;                        ///< the same with every default explicit, in SI, as TOML (write_resolved)
+  std::string directory;                       ///< files named in the input are relative to it
 
   int dimension() const { return analysis == Analysis::three_dimensional ? 3 : 2; }
 };

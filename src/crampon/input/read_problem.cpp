@@ -23,6 +23,7 @@ Problem read_problem_text(const std::string& text, const std::string& name, cons
   const ResolvedTable resolved = read_record(context, problem_declaration(), *root, &problem, "");
   check_problem(problem, diagnostics);
   diagnostics.throw_if_any();
+  problem.written = std::move(context.written);
   problem.source = text;
   problem.directory = directory;
   problem.resolved = write_toml(resolved);

@@ -174,20 +174,20 @@ class SchemaWriter {
       case Kind::integer:
         return number_schema("integer", entry.bounds);
       case Kind::integers:
-        return array_schema(number_schema("integer", entry.bounds), entry.length);
+        return one_or_array(number_schema("integer", entry.bounds), entry.length);
       case Kind::flag:
         return {{"type", "boolean"}};
       case Kind::text:
         return {{"type", "string"}};
       case Kind::texts:
-        return array_schema({{"type", "string"}}, entry.length);
+        return one_or_array({{"type", "string"}}, entry.length);
       case Kind::choice:
         return {{"enum", entry.choices}};
       // A $ref must stand alone in Draft 4; allOf lets a description stand beside it.
       case Kind::function:
         return {{"allOf", Json::array({reference("function")})}};
       case Kind::functions:
-        return array_schema(reference("function"), entry.length);
+        return one_or_array(reference("function"), entry.length);
       case Kind::record:
         return record_schema(entry.record());
       case Kind::records: {

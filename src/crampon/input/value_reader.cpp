@@ -85,6 +85,7 @@ class ValueReader {
     } else if (const auto* words = node.as_string()) {
       try {
         value = parse_quantity(words->get(), unit_);
+        if (unit_ == "any") context_.written[where] = words->get();
       } catch (const UnitError& error) {
         return complain(node, where, error.what, error.why, error.remedy);
       }
@@ -185,7 +186,8 @@ class ValueReader {
       const std::optional<V> value = read_one(*array->get(k), element);
       good = good && value;
       if (value) values.push_back(*value);
-      places_[fmt::format("{}[{}]", entry_.key, k)] = locate(array->get(k)->source(), element);
+      if (!where.ends_with(']'))  // an element, not the coordinate of a point
+        places_[fmt::format("{}[{}]", entry_.key, k)] = locate(array->get(k)->source(), element);
     }
     return good ? std::optional(std::move(values)) : std::nullopt;
   }

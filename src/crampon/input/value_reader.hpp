@@ -14,7 +14,8 @@ namespace crampon {
 /// What reading one input needs everywhere.
 struct ReadContext {
   Diagnostics& diagnostics;
-  std::string directory;  ///< files named in the input are relative to it
+  std::string directory;                            ///< files named in the input are relative to it
+  std::map<std::string, std::string> written = {};  ///< texts of quantities of any dimension, by place ("expect[0].value")
 };
 
 /// Reads a plain entry. unit: of this entry in this record. Elements of lists leave their places in `places` as "points[2]".

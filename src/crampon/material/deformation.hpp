@@ -53,6 +53,16 @@ inline Pack volume_ratio_of(const Pack* F) {
   }
 }
 
+/// In the plane: without the stretch of the thickness (2D).
+template <int Dim>
+inline Pack area_ratio_of(const Pack* F) {
+  if constexpr (Dim == 2) {
+    return F[0] * F[3] - F[1] * F[2];
+  } else {
+    return determinant3(F);
+  }
+}
+
 /// Rotation R of F = R U, row by row. 2D in closed form (kinematics.md 5); 3D by Higham's iteration R <- (R + R^-T)/2 from F, a
 /// fixed number of times: after the first, the error squares each time, so that eight reach round-off for stretches up to 10.
 inline void rotation_of(const Pack* F, Pack* R, int dimension) {

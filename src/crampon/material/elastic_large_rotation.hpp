@@ -80,6 +80,7 @@ struct ElasticLargeRotation {
     Pack R[Dim * Dim], e[stress_size<Dim>];
     stretch<Dim>(F, R, e);
     r.volume_ratio = volume_ratio_of<Dim>(F);
+    r.area_ratio = area_ratio_of<Dim>(F);
     r.to_cauchy = 1. / r.volume_ratio;
     const int n = Dim == 2 ? 2 : 3;  // in 2D nothing works through the thickness
     Pack trace = splat(0.), squares = splat(0.);

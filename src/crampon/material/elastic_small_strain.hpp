@@ -68,6 +68,7 @@ struct ElasticSmallStrain {
       r.volume_ratio = (1. + strain[0]) * (1. + strain[1]) * (1. + strain[2]);
       for (int k = 0; k < 6; ++k) r.strain[k] = strain[k];
     }
+    r.area_ratio = r.volume_ratio;  // N03 Eq. 9 is of the plane
     return r;
   }
 };

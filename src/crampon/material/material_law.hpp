@@ -28,6 +28,7 @@ struct StressBatch {
 struct PackReport {
   Pack energy;        ///< strain energy per initial volume, J/m3
   Pack volume_ratio;  ///< V/V0
+  Pack area_ratio;    ///< A/A0 in the plane (2D); the volume ratio in 3D
   Pack to_cauchy;     ///< stored stress times this is the Cauchy stress
   Pack strain[6];     ///< xx, yy, zz, xy, yz, xz of the law's own strain measure
 };

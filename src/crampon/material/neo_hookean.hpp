@@ -71,6 +71,7 @@ struct NeoHookean {
     Pack b[stress_size<Dim>];
     left_cauchy_green<Dim>(F, b);
     r.volume_ratio = volume_ratio_of<Dim>(F);
+    r.area_ratio = area_ratio_of<Dim>(F);
     r.to_cauchy = 1. / r.volume_ratio;
     const Pack log_J = lane_log(r.volume_ratio), trace = Dim == 2 ? b[0] + b[1] + b[3] : b[0] + b[1] + b[2];
     r.energy = 0.5 * c.mu * (trace - 3. - 2. * log_J) + 0.5 * c.lambda * log_J * log_J;

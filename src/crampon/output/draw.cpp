@@ -156,6 +156,7 @@ void paint_crack(Canvas& canvas, const Scene::Surfaces& crack, const PictureMap:
   canvas.set_colour({1, 1, 1});
   for (std::size_t v = 0; v + 1 < crack.upper.size(); ++v) {
     if (opening(v) <= 0 && opening(v + 1) <= 0) continue;
+    cairo_new_sub_path(c);
     trace(c, {crack.upper[v], crack.upper[v + 1], crack.lower[v + 1], crack.lower[v]}, panel);
     cairo_close_path(c);
   }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "crampon/output/file.hpp"
+#include "crampon/output/run_record.hpp"
 
 namespace crampon {
 namespace {
@@ -44,6 +45,15 @@ std::vector<fs::path> written_files(const fs::path& folder) {
   return found;
 }
 
+// Pictures show one run; those of an older one would lie beside the new results.
+std::vector<fs::path> drawn_pictures(const fs::path& folder) {
+  std::vector<fs::path> found;
+  if (!fs::is_directory(fs::symlink_status(folder / "pictures"))) return found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "pictures"))
+    if (entry.path().extension() == ".png" && fs::is_regular_file(entry.symlink_status())) found.push_back(entry.path());
+  return found;
+}
+
 [[noreturn]] void fail(const fs::path& path, const char* verb, const std::error_code& code) {
   throw std::runtime_error(fmt::format("{}: cannot {}: {}", path.string(), verb, code.message()));
 }
@@ -61,19 +71,32 @@ ResultsFolder::ResultsFolder(fs::path path)
     : path_(std::move(path)), particles_(particles_series()), cracks_(cracks_series()), grid_(grid_series()) {}
 
 void ResultsFolder::check(const fs::path& path, Overwrite overwrite) {
-  if (overwrite == Overwrite::replace || !fs::is_directory(path)) return;
+  if (!fs::is_directory(path)) return;
   const std::vector<fs::path> old = written_files(path);
-  if (!old.empty())
-    throw ResultsExist(fmt::format("{}: the folder already holds results ({} files, such as {}); choose another folder or say --force",
-                                   path.string(), old.size(), old.front().lexically_relative(path).string()));
+  if (old.empty()) return;
+  if (overwrite == Overwrite::replace) {
+    if (is_run_record(path / "run.json")) return;
+    throw ResultsExist(
+        fmt::format("{}: the folder holds {}, but no run.json of Crampon: it may be somebody else's, and is left alone; "
+                    "choose another folder or remove it by hand",
+                    path.string(), old.front().lexically_relative(path).string()));
+  }
+  throw ResultsExist(fmt::format("{}: the folder already holds results ({} files, such as {}); choose another folder or say --force",
+                                 path.string(), old.size(), old.front().lexically_relative(path).string()));
 }
 
 ResultsFolder ResultsFolder::create(const fs::path& path, Overwrite overwrite) {
   check(path, overwrite);
   if (fs::is_directory(path)) {
     std::error_code code;
-    for (const fs::path& file : written_files(path))
+    std::vector<fs::path> old = written_files(path);
+    if (!old.empty()) {
+      const std::vector<fs::path> pictures = drawn_pictures(path);
+      old.insert(old.end(), pictures.begin(), pictures.end());
+    }
+    for (const fs::path& file : old)
       if (!fs::remove(file, code) && code) fail(file, "remove", code);
+    fs::remove(path / "pictures", code);
     for (const char* series : series_names) fs::remove(path / series, code);  // stays when something else is in it
   }
   create_folder(path);

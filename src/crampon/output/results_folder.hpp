@@ -30,7 +30,7 @@ enum class Overwrite { refuse, replace };
 class ResultsFolder {
  public:
   /// For a run. Creates the folder and those above it. When a run wrote there before: refuse throws ResultsExist; replace removes the
-  /// files a run writes and nothing else. Throws std::runtime_error "path: reason" when that cannot be done.
+  /// files a run writes and pictures of it, and nothing else; without a run.json of Crampon it throws ResultsExist too. Throws std::runtime_error "path: reason" when that cannot be done.
   static ResultsFolder create(const std::filesystem::path& path, Overwrite overwrite = Overwrite::refuse);
   /// The ResultsExist that create would throw, without touching anything: to be asked before a long preparation.
   static void check(const std::filesystem::path& path, Overwrite overwrite);

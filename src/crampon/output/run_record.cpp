@@ -120,4 +120,9 @@ RunRecord read_run_record(const std::filesystem::path& path) {
   }
 }
 
+bool is_run_record(const std::filesystem::path& path) {
+  // By text: a record that was cut short is one too.
+  return std::filesystem::is_regular_file(path) && read_file(path).find("\"program\": \"Crampon\"") != std::string::npos;
+}
+
 }  // namespace crampon

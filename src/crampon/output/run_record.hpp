@@ -46,5 +46,7 @@ double peak_memory_bytes();
 void write_run_record(const std::filesystem::path& path, const RunRecord& record);
 /// Throws std::runtime_error "path: reason" when the file is missing, damaged or lacks an entry.
 RunRecord read_run_record(const std::filesystem::path& path);
+/// Is this a record that Crampon wrote, whole or not of this version?
+bool is_run_record(const std::filesystem::path& path);
 
 }  // namespace crampon

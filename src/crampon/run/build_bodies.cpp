@@ -75,24 +75,7 @@ class BodyBuilder {
     out_.particles.push_back(p);
   }
 
-  /// A finite shape that reaches out of the grid would be cut off silently.
-  bool inside_grid(const BodyInput& body) {
-    const Bounds3 box = body.shape->bounds();
-    for (int k = 0; k < Dim; ++k) {
-      const double slack = 1e-9 * grid_.cell[k], low = grid_.origin[k] - slack, high = grid_.node_coordinate(k, grid_.cells[k]) + slack;
-      const bool below = std::isfinite(box.low[k]) && box.low[k] < low, above = std::isfinite(box.high[k]) && box.high[k] > high;
-      if (!below && !above) continue;
-      errors_.push_back({body.at("shape"), fmt::format("the body \"{}\" reaches out of the grid", body.name),
-                         fmt::format("along {} it spans {:.6g} to {:.6g} m, the grid {:.6g} to {:.6g} m", "xyz"[k], box.low[k], box.high[k],
-                                     grid_.origin[k], grid_.node_coordinate(k, grid_.cells[k])),
-                         "enlarge the grid or move the body"});
-      return false;
-    }
-    return true;
-  }
-
   void fill(const BodyInput& body, std::size_t b, std::uint32_t material) {
-    if (!inside_grid(body)) return;
     FillGrid fill_grid;
     fill_grid.dimension = Dim;
     std::array<int, 3> per_cell{1, 1, 1};

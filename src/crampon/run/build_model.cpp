@@ -50,8 +50,47 @@ void for_nodes(const Grid<Dim>& grid, const Bounds3& box, F f) {
   }
 }
 
+/// Times at which two conditions that hold together are compared.
+template <int Dim>
+std::vector<double> common_times(const VelocityCondition<Dim>& a, const VelocityCondition<Dim>& b) {
+  const double start = std::fmax(a.start, b.start), end = std::fmin(a.end, b.end);
+  if (!(start < end)) return {};
+  const double span = std::isfinite(end) ? end - start : 1.;
+  return {start, start + 0.37 * span, start + 0.81 * span};
+}
+
+/// Of several values for one component at a node the last one stated holds, so that a part of a region can differ from the rest.
+/// A condition that others overrule everywhere with another value is a contradiction.
+template <int Dim>
+void check_contradictions(const Model<Dim>& model, const std::vector<const Located*>& stated, std::vector<Diagnostic>& errors) {
+  for (std::size_t i = 0; i < model.conditions.size(); ++i) {
+    for (std::size_t j = i + 1; j < model.conditions.size(); ++j) {
+      const VelocityCondition<Dim>&a = model.conditions[i], &b = model.conditions[j];
+      if (a.nodes.empty() || !std::includes(b.nodes.begin(), b.nodes.end(), a.nodes.begin(), a.nodes.end())) continue;
+      bool told = false;
+      for (const auto& of_a : a.components) {
+        for (const auto& of_b : b.components) {
+          if (told || of_a.axis != of_b.axis) continue;
+          for (const double t : common_times(a, b)) {
+            if (told || of_a.value.depends_on_position() || of_b.value.depends_on_position() || of_a.value(t, {}) == of_b.value(t, {}))
+              continue;
+            told = true;
+            errors.push_back(
+                {stated[i]->location,
+                 fmt::format("\"{}\" prescribes v{} = {:g} m/s where \"{}\" prescribes {:g} m/s, at t = {:g} s", a.name, "xyz"[of_a.axis],
+                             of_a.value(t, {}), b.name, of_b.value(t, {}), t),
+                 b.symmetry ? "material stays on a symmetry plane" : "the one stated last holds, and leaves nothing of the first",
+                 "remove one of them, or part their regions or times"});
+          }
+        }
+      }
+    }
+  }
+}
+
 template <int Dim>
 void build_conditions(const Problem& problem, Model<Dim>& model, std::vector<Diagnostic>& errors) {
+  std::vector<const Located*> stated;
   for (const BoundaryInput& in : problem.boundaries) {
     VelocityCondition<Dim> c;
     c.name = in.name;
@@ -72,6 +111,7 @@ void build_conditions(const Problem& problem, Model<Dim>& model, std::vector<Dia
                         "the condition would do nothing", "let the region pass through grid lines or enlarge it"});
     }
     model.conditions.push_back(std::move(c));
+    stated.push_back(&in);
   }
   for (const SymmetryInput& in : problem.symmetries) {
     SymmetryPlane plane;
@@ -93,7 +133,9 @@ void build_conditions(const Problem& problem, Model<Dim>& model, std::vector<Dia
     });
     model.symmetries.push_back(plane);
     model.conditions.push_back(std::move(c));
+    stated.push_back(&in);
   }
+  check_contradictions(model, stated, errors);
 }
 
 void build_cracks(const Problem& problem, const Grid<2>& grid, Cracks<2>& cracks, std::vector<ContactLawSpec>& laws,

@@ -7,6 +7,7 @@
 #include <omp.h>
 
 #include "crampon/core/closest_name.hpp"
+#include "crampon/core/units.hpp"
 #include "crampon/output/file.hpp"
 #include "crampon/output/history.hpp"
 #include "crampon/output/quantity.hpp"
@@ -30,7 +31,8 @@ class Recorder {
         frames_(problem.output),
         rows_(problem.output, problem.time, simulation.end_time()) {
     if (!problem.source.empty()) write_file(folder_.path() / "input.original.toml", problem.source);
-    folder_.write_resolved_input(problem.resolved);
+    const std::string shortened = options.most_steps ? fmt::format("# ended after {} steps at most (--steps)\n", *options.most_steps) : "";
+    folder_.write_resolved_input(shortened + problem.resolved);
     frames_.take(simulation.time(), 0, 0);  // a listed time of 0 is the first frame, which is always written
   }
 
@@ -60,7 +62,8 @@ class Recorder {
     const Precision precision = problem_.output.full_precision ? Precision::full : Precision::single;
     folder_.write_particles(simulation_.particles(problem_.output.quantities), precision);
     if (!problem_.cracks.empty()) folder_.write_cracks(simulation_.cracks(), precision);
-    if (problem_.output.grid) folder_.write_grid(simulation_.nodes(), precision);
+    // Before the first step nodes hold nothing.
+    if (problem_.output.grid && simulation_.steps_done() > 0) folder_.write_grid(simulation_.nodes(), precision);
     last_frame_ = simulation_.steps_done();
   }
   void write_row() {
@@ -110,6 +113,27 @@ void update(RunRecord& record, const Simulation& simulation, const Recorder& rec
 
 int default_threads() { return omp_get_max_threads(); }
 
+namespace {
+
+/// What is expected must have the dimension of what is measured.
+void check_units(const Problem& problem, const ExpectInput& expect, const std::string& measured, std::vector<Diagnostic>& found) {
+  const std::string si = measured.empty() ? "1" : measured;
+  const auto check = [&](const char* key, auto convert) {
+    try {
+      convert();
+    } catch (const UnitError& error) {
+      found.push_back({expect.at(key), error.what, error.why, error.remedy});
+    }
+  };
+  for (const char* key : {"value", "tolerance"}) {
+    const auto text = problem.written.find(expect.location.where + "." + key);
+    if (text != problem.written.end()) check(key, [&] { parse_quantity(text->second, si); });
+  }
+  if (!expect.unit.empty()) check("unit", [&] { unit_factor(expect.unit, si); });
+}
+
+}  // namespace
+
 void check_against_simulation(const Problem& problem, const Simulation& simulation) {
   std::vector<Diagnostic> found;
   std::vector<std::string> columns;
@@ -118,10 +142,16 @@ void check_against_simulation(const Problem& problem, const Simulation& simulati
   const auto known = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  for (const ExpectInput& expect : problem.expects)
-    if (expect.column && !known(columns, *expect.column))
+  for (const ExpectInput& expect : problem.expects) {
+    if (!expect.column) continue;
+    const auto column = std::find(columns.begin(), columns.end(), *expect.column);
+    if (column == columns.end()) {
       found.push_back({expect.at("column"), fmt::format("the history has no column \"{}\"", *expect.column), "",
                        suggest_from(*expect.column, columns)});
+    } else {
+      check_units(problem, expect, simulation.history_columns()[static_cast<std::size_t>(column - columns.begin())].unit, found);
+    }
+  }
   for (const std::string& name : problem.output.quantities)
     if (!known(quantities, name))
       found.push_back(
@@ -131,7 +161,7 @@ void check_against_simulation(const Problem& problem, const Simulation& simulati
   if (found.empty() && of_particles) {
     const PointFrame frame = simulation.particles(problem.output.quantities);
     for (const ExpectInput& expect : problem.expects) try {
-        if (expect.quantity) evaluate_quantity(frame, *expect.quantity);
+        if (expect.quantity) check_units(problem, expect, evaluate_quantity(frame, *expect.quantity).unit, found);
       } catch (const std::invalid_argument& error) {
         found.push_back({expect.at("quantity"), error.what(), "only what [output] writes can be checked",
                          "choose another quantity or add it to output.quantities"});

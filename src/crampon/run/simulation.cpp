@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "crampon/core/error.hpp"
+#include "crampon/output/quantity.hpp"
 #include "crampon/run/build_model.hpp"
 #include "crampon/run/sample.hpp"
 #include "crampon/shape/bspline.hpp"
@@ -95,8 +96,7 @@ class Engine final : public Simulation {
       c.push_back({"sliding_max." + crack.name, "m"});
     }
     for (const Probe& probe : probes_) {
-      const PointFrame frame = sample_particles(state_, model_, {probe.quantity});
-      const Field& f = frame.fields.back();
+      const Field f = probed(probe.quantity).field;
       for (int k = 0; k < f.components; ++k) c.push_back({probe.name + "." + f.name + suffix(f.components, k), f.unit});
     }
     return c;
@@ -118,10 +118,8 @@ class Engine final : public Simulation {
       for (const auto& crack : state_.cracks.list) add_openings(crack, row);
     }
     for (const Probe& probe : probes_) {
-      const PointFrame frame = sample_particles(state_, model_, {probe.quantity});
-      const auto& ids = frame.fields[0].values;
+      const auto& [ids, f] = probed(probe.quantity);
       const auto at = std::lower_bound(ids.begin(), ids.end(), static_cast<double>(probe.particle));
-      const Field& f = frame.fields.back();
       for (int k = 0; k < f.components; ++k) {
         const bool there = at != ids.end() && *at == probe.particle;
         row.push_back(there ? f.values[static_cast<std::size_t>(at - ids.begin()) * f.components + k]
@@ -154,6 +152,24 @@ class Engine final : public Simulation {
     std::string name, quantity;
     std::uint32_t particle = 0;
   };
+
+  struct Probed {
+    std::vector<double> ids;
+    Field field;
+  };
+  /// A quantity as the output knows it, or a number made of one ("velocity_x", "von_mises"). Throws std::invalid_argument.
+  Probed probed(const std::string& quantity) const {
+    const std::vector<std::string> known = particle_quantity_names();
+    const auto is_known = [&](const std::string& name) { return std::find(known.begin(), known.end(), name) != known.end(); };
+    if (is_known(quantity)) {
+      PointFrame frame = sample_particles(state_, model_, {quantity});
+      return {std::move(frame.fields.front().values), std::move(frame.fields.back())};
+    }
+    const std::string field = quantity.substr(0, quantity.rfind('_'));
+    PointFrame frame = sample_particles(state_, model_, is_known(field) ? std::vector{field} : known);
+    Quantity all = evaluate_quantity(frame, quantity);
+    return {std::move(frame.fields.front().values), {quantity, all.unit, 1, std::move(all.values)}};
+  }
 
   double end_time_or_infinity() const { return time_.end ? end_ : std::numeric_limits<double>::infinity(); }
 
@@ -198,7 +214,13 @@ class Engine final : public Simulation {
   }
 
   void place_probes(const Problem& problem) {
+    std::vector<Diagnostic> errors;
     for (const ProbeInput& in : problem.probes) {
+      try {
+        probed(in.quantity);
+      } catch (const std::invalid_argument& error) {
+        errors.push_back({in.at("quantity"), error.what(), "it is a particle quantity or a component of one", "correct the name"});
+      }
       double best = std::numeric_limits<double>::infinity();
       Probe probe{in.name, in.quantity, 0};
       for (std::size_t p = 0; p < state_.particles.size(); ++p) {
@@ -213,6 +235,7 @@ class Engine final : public Simulation {
       }
       probes_.push_back(probe);
     }
+    if (!errors.empty()) throw InputError(std::move(errors));
   }
 
   static std::string suffix(int components, int k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "crampon/step/boundary.hpp"
 
@@ -35,13 +36,18 @@ std::size_t nodal_index(const State<Dim>& state, std::size_t b, int layer, int n
   return (std::size_t{state.nodes.layers[b].node_begin} + layer) * block_nodes<Dim> + node;
 }
 
-bool is_bonded(const std::vector<ContactLawSpec>& laws, CrackId c) { return std::holds_alternative<BondedContact>(laws[c]); }
+/// Are fields on both sides of the crack one group? One after another, bonded pairs are pairs like others (N13, CONVENTIONS 14).
+template <int Dim>
+bool joins(const Model<Dim>& model, CrackId c) {
+  return std::holds_alternative<BondedContact>(model.crack_laws[c]) && model.contact.pairs == ContactPairs::joint;
+}
 
-/// A signature without its bonded cracks: fields that agree in it move as one (CONVENTIONS 13, 14).
-Signature without_bonded(const Signature& s, const std::vector<ContactLawSpec>& laws) {
+/// A signature without the cracks that join: fields that agree in it move as one (CONVENTIONS 13, 14).
+template <int Dim>
+Signature without_joined(const Signature& s, const Model<Dim>& model) {
   Signature out;
   for (const CrackId c : s) {
-    if (!is_bonded(laws, c)) out.append(c);
+    if (!joins(model, c)) out.append(c);
   }
   return out;
 }
@@ -149,6 +155,8 @@ class NodeFinder {
       crack.crack = layers.node_cracks[c];
       Vec<Dim> n, N;
       for (int k = 0; k < 2; ++k) n[k] = sum.r[0][k], N[k] = sum.r[1][k];
+      drop_mirrored(number, n);
+      drop_mirrored(number, N);
       crack.n = normalized(n);
       crack.N = normalized(N);
       crack.side = sum.r[0][2];
@@ -158,11 +166,18 @@ class NodeFinder {
     if (cracks_.size() > 2) ++state_.scratch[b_].ledger.crowded_nodes;
   }
 
+  /// On a symmetry plane the crack and its mirror image meet: their mean normal lies in the plane (contact.md 6).
+  void drop_mirrored(std::int64_t number, Vec<Dim>& n) const {
+    for (const VelocityCondition<Dim>& c : model_.conditions) {
+      if (c.symmetry && std::binary_search(c.nodes.begin(), c.nodes.end(), number)) n[c.components.front().axis] = 0;
+    }
+  }
+
   void collect_groups(int node) {
     sums_.clear();
     const BlockLayers<Dim>& layers = state_.nodes.layers[b_];
     for (const int l : fields_) {
-      const Signature reduced = without_bonded(layers.node[static_cast<std::size_t>(l)], model_.crack_laws);
+      const Signature reduced = without_joined(layers.node[static_cast<std::size_t>(l)], model_);
       std::size_t g = 0;
       while (g < sums_.size() && sums_[g].signature != reduced) ++g;
       if (g == sums_.size()) {
@@ -220,13 +235,17 @@ class NodeFinder {
         out_.pairs.push_back(pair);
       }
     }
+    // CONVENTIONS 13: [0][1], [2][3] of the first crack, then [0][2], [1][3] of the second.
+    std::sort(out_.pairs.begin() + contact.first_pair, out_.pairs.end(), [](const ContactPair<Dim>& a, const ContactPair<Dim>& b) {
+      return std::tie(a.crack, a.others) < std::tie(b.crack, b.others);
+    });
   }
 
   /// Where the node has changed sides of another crack, the pair was known under the other label.
   ContactState previous_state(std::int64_t number, const ContactPair<Dim>& pair) const {
     ContactKey key{number, pair.crack, pair.others};
     for (const auto& k : cracks_) {
-      if (k.crack == pair.crack || is_bonded(model_.crack_laws, k.crack)) continue;
+      if (k.crack == pair.crack || joins(model_, k.crack)) continue;
       const double before = state_.memory.side(number, k.crack);
       if (before * k.side < 0) key.others.toggle(k.crack);
     }
@@ -275,7 +294,9 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
     for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
       groups[contacts.fields[f].group].p += momentum_of(nodes, nodal_index(state, b, contacts.fields[f].layer, node.node));
     }
-    rules.fixed_axes = task == ContactTask::four ? fixed_axes(state, b, node.node) : 0u;
+    // Prescribed components stay in Task 4 (N13 sec. 2.5), and in the other tasks where nothing imposes them again after contact.
+    const bool imposed_before = task == ContactTask::four || model.boundary_order == BoundaryOrder::boundary_first;
+    rules.fixed_axes = imposed_before ? fixed_axes(state, b, node.node) : 0u;
     if (pair_count > 0) {
       std::vector<Vec<Dim>> before;
       for (int q = 0; q < pair_count; ++q) before.push_back(relative_velocity(groups, pairs[q]));

@@ -81,10 +81,10 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   });
   phases.blocks("contact and boundaries", [&](B b) { settle_start_momenta<Dim, Shape>(state, model, b, dt); });  // Task 2
   phases.blocks("stress and forces", [&](B b) {                                                                  // Tasks 2, 3
-    update_stress_and_project_forces<Dim, Shape>(state, model, b, stress_first ? stress_dt : 0., load_values);
+    update_stress_and_project_forces<Dim, Shape>(state, model, b, stress_first ? stress_dt : 0., load_values, body_force);
   });
   phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });  // Tasks 3, 4
-  phases.blocks("account loads", [&](B b) { account_loads<Dim, Shape>(state, model, b, dt, load_values); });
+  phases.blocks("account loads", [&](B b) { account_loads<Dim, Shape>(state, model, b, dt, load_values, body_force); });
   if (re_extrapolates) {
     phases.blocks("update velocities", [&](B b) { update_velocities_and_project<Dim, Shape>(state, model, b, dt); });  // Tasks 5, 6
     phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });  // Task 6

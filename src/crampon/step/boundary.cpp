@@ -15,6 +15,16 @@ Vec<3> node_place(const State<Dim>& state, const Model<Dim>& model, std::size_t 
   return x;
 }
 
+bool same_component(const FixedComponent& a, const FixedComponent& b) { return a.node == b.node && a.axis == b.axis; }
+
+/// Of several active conditions on one component the last one stated holds.
+bool is_overruled(const std::vector<FixedComponent>& fixed, std::size_t i) {
+  for (std::size_t j = i + 1; j < fixed.size() && same_component(fixed[i], fixed[j]); ++j) {
+    if (fixed[j].active) return true;
+  }
+  return false;
+}
+
 /// f(component, slot index into nodal arrays, index into p_int) for the active fixed components of a block, in all its layers.
 template <int Dim, class F>
 void for_fixed(State<Dim>& state, std::size_t b, F f) {
@@ -25,9 +35,7 @@ void for_fixed(State<Dim>& state, std::size_t b, F f) {
     for (std::size_t i = 0; i < count; ++i) {
       FixedComponent& c = scratch.fixed[i];
       if (!c.active) continue;
-      // Of several conditions on one component the last one stated holds.
-      if (i + 1 < count && scratch.fixed[i + 1].node == c.node && scratch.fixed[i + 1].axis == c.axis && scratch.fixed[i + 1].active)
-        continue;
+      if (is_overruled(scratch.fixed, i)) continue;
       f(c, (layers.node_begin + l) * block_nodes<Dim> + c.node, l * count + i);
     }
   }
@@ -39,27 +47,37 @@ template <int Dim>
 void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt) {
   const double t_old = state.time, t_new = state.time + dt;
   struct Value {
-    bool active = false, fresh = false, everywhere = false;
+    bool active = false, everywhere = false;
     double v_old = 0, v_new = 0;
   };
   std::vector<std::vector<Value>> values(model.conditions.size());
   state.condition_was_active.resize(model.conditions.size(), false);
+  const std::vector<bool> was_active = state.condition_was_active;
   for (std::size_t c = 0; c < model.conditions.size(); ++c) {
     const auto& condition = model.conditions[c];
     // A step belongs to the condition when it starts within its time.
     const bool active = t_old >= condition.start - 1e-9 * dt && t_old < condition.end - 1e-9 * dt;
     for (const auto& component : condition.components) {
-      Value v{active, active && !state.condition_was_active[c], !component.value.depends_on_position(), 0, 0};
+      Value v{active, !component.value.depends_on_position(), 0, 0};
       if (v.everywhere && active) v.v_old = component.value(t_old, {}), v.v_new = component.value(t_new, {});
       values[c].push_back(v);
     }
     state.condition_was_active[c] = active;
   }
   for (std::size_t b = 0; b < state.blocks.size(); ++b) {
-    for (FixedComponent& f : state.scratch[b].fixed) {
+    auto& fixed = state.scratch[b].fixed;
+    bool was_prescribed = false;
+    for (std::size_t i = 0; i < fixed.size(); ++i) {
+      FixedComponent& f = fixed[i];
+      if (i == 0 || !same_component(fixed[i - 1], f)) {  // the first of those on this component: was any of them active?
+        was_prescribed = false;
+        for (std::size_t j = i; j < fixed.size() && same_component(fixed[j], f); ++j) {
+          was_prescribed = was_prescribed || was_active[fixed[j].condition];
+        }
+      }
       const Value& v = values[f.condition][f.component];
       f.active = v.active;
-      f.fresh = v.fresh;
+      f.fresh = v.active && !was_prescribed;
       f.v_old = v.v_old;
       f.v_new = v.v_new;
       if (v.active && !v.everywhere) {
@@ -70,6 +88,14 @@ void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt) 
       }
     }
   }
+}
+
+template <int Dim>
+void impose_symmetry(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  if (model.symmetries.empty()) return;
+  for_fixed(state, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
+    if (model.conditions[c.condition].symmetry) state.nodes.momentum[i][c.axis] = 0;
+  });
 }
 
 template <int Dim>
@@ -141,6 +167,7 @@ unsigned fixed_axes(const State<Dim>& state, std::size_t b, int node) {
 
 #define CRAMPON_INSTANTIATE(DIM)                                                         \
   template void evaluate_conditions<DIM>(State<DIM>&, const Model<DIM>&, double);        \
+  template void impose_symmetry<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);       \
   template void impose_start_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);  \
   template void impose_forces<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double); \
   template void impose_end_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);    \

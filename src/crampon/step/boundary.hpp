@@ -13,6 +13,10 @@ namespace crampon {
 template <int Dim>
 void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt);
 
+/// Takes the normal momentum from nodes on symmetry planes, where mirror images meet. Own nodes of one block.
+template <int Dim>
+void impose_symmetry(State<Dim>& state, const Model<Dim>& model, std::size_t block);
+
 /// Task 2: keeps p_int and gives fixed components the prescribed momentum at the start of the step. Own nodes of one block.
 template <int Dim>
 void impose_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block);

@@ -32,17 +32,17 @@ void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
   for (std::size_t b = 0; b < state.blocks.size(); ++b) {
     if (!state.blocks.list[b].has_particles()) continue;
     const auto first = state.blocks.list[b].first_node();
-    for_packs<Dim, Shape>(state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget*, const Run& run) {
-      for (int l = 0; l < lanes; ++l) {
-        const double V_p = state.particles.volume(std::size_t{pack} * lanes + l) / model.materials[run.material].thickness;
-        const auto lowest = unflatten<Dim>(stencil.base[l], T::side);
-        for (int n = 0; n < T::stencil; ++n) {
-          auto node = unflatten<Dim>(n, Shape::width);
-          for (int k = 0; k < Dim; ++k) node[k] += lowest[k] + first[k] - T::offset;
-          state.initial_volume[static_cast<std::size_t>(model.grid.node_number(node))] += V_p * stencil.S[n][l];
-        }
-      }
-    });
+    for_packs<Dim, Shape>(
+        state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+          for (int l = 0; l < lanes; ++l) {
+            const double V_p = state.particles.volume(std::size_t{pack} * lanes + l) / model.materials[run.material].thickness;
+            for (int n = 0; n < T::stencil; ++n) {
+              auto node = unflatten<Dim>(targets ? targets[l * T::stencil + n].node : stencil.base[l] + T::steps[n], T::side);
+              for (int k = 0; k < Dim; ++k) node[k] += first[k] - T::offset;
+              state.initial_volume[static_cast<std::size_t>(model.grid.node_number(node))] += V_p * stencil.S[n][l];
+            }
+          }
+        });
   }
 }
 

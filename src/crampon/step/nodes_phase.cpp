@@ -68,6 +68,7 @@ void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_
     assemble_contact_sums<Dim, Shape>(state, b);
     find_contacts(state, model, b);
   }
+  impose_symmetry(state, model, b);
   if (model.boundary_order == BoundaryOrder::contact_first) {
     adjust_contact(state, model, b, ContactTask::two, dt);  // N13 sec. 2.3
     impose_start_momenta(state, model, b);
@@ -131,6 +132,7 @@ void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, d
 template <int Dim, class Shape>
 void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
   assemble_momentum<Dim, Shape>(state, b);
+  impose_symmetry(state, model, b);
   if (model.boundary_order == BoundaryOrder::contact_first) {
     adjust_contact(state, model, b, ContactTask::six, dt);
     impose_end_momenta(state, model, b);  // CONVENTIONS 28

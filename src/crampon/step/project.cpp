@@ -35,7 +35,7 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
         if (volumes) {
           const PackReport report = material.law->report(model.stress_state, Dim, &particles.stress[std::size_t{pack} * stress_size<Dim>],
                                                          particles.history.data() + std::size_t{pack} * particles.history_size);
-          volume = particles.mass_volume[2 * std::size_t{pack} + 1] * report.volume_ratio / material.thickness;
+          volume = particles.mass_volume[2 * std::size_t{pack} + 1] * report.area_ratio / material.thickness;
         }
         for (int l = 0; l < lanes; ++l) {
           const std::size_t p = std::size_t{pack} * lanes + l;
@@ -84,11 +84,31 @@ void project_loads(const State<Dim>& state, const Model<Dim>& model, std::size_t
       });
 }
 
+/// Nodes add body force to all their mass; what folded pairs brought them is a mirror image, on which it acts mirrored (CONVENTIONS 29).
+template <int Dim, class Shape>
+void mirror_body_force(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const Vec<Dim>& body_force,
+                       NodalVector<Dim>* tiles) {
+  using T = Tile<Dim, Shape>;
+  for_packs<Dim, Shape>(state, model, b,
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
+                          if (!targets) return;
+                          for (int l = 0; l < lanes; ++l) {
+                            const double m_p = state.particles.mass(std::size_t{pack} * lanes + l);
+                            for (int n = 0; n < T::stencil; ++n) {
+                              const PairTarget t = targets[l * T::stencil + n];
+                              for (int k = 0; k < Dim; ++k) {
+                                if (t.flip >> k & 1u) tiles[t.layer * T::nodes + t.node][k] -= 2 * stencil.S[n][l] * m_p * body_force[k];
+                              }
+                            }
+                          }
+                        });
+}
+
 }  // namespace
 
 template <int Dim, class Shape>
 void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, double stress_dt,
-                                      const std::vector<Vec<Dim>>& load_values) {
+                                      const std::vector<Vec<Dim>>& load_values, const Vec<Dim>& body_force) {
   if (!state.blocks.list[b].has_particles()) return;
   NodalVector<Dim>* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_force);
   const Particles<Dim>& particles = state.particles;
@@ -105,13 +125,14 @@ void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model
                           });
   }
   if (!state.scratch[b].loaded.empty()) project_loads<Dim, Shape>(state, model, b, load_values, tiles);
+  if (model.any_body_force() && !model.symmetries.empty()) mirror_body_force<Dim, Shape>(state, model, b, body_force, tiles);
 }
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                           \
   template void project_momentum<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                        \
   template void project_contact_sums<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                    \
   template void update_stress_and_project_forces<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, \
-                                                             const std::vector<Vec<DIM>>&);
+                                                             const std::vector<Vec<DIM>>&, const Vec<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

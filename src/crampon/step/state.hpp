@@ -23,7 +23,7 @@ struct FixedComponent {
   std::uint16_t condition = 0;
   std::uint16_t component = 0;  ///< of the condition
   bool active = false;          ///< the condition holds in this step
-  bool fresh = false;           ///< ... and did not in the step before
+  bool fresh = false;           ///< ... and the component was free in the step before
   double v_old = 0, v_new = 0;  ///< m/s, at the start and the end of the step
 };
 

@@ -46,6 +46,15 @@ struct Advance {
   }
 };
 
+/// v += a dt alone; a position stays good whatever a is, for the stencils that are still to come in this step.
+template <int Dim>
+void accelerate(Particles<Dim>& particles, std::size_t p, const MotionRecord<Dim>& m, double dt) {
+  constexpr int last = motion_packs<Dim> - 1;
+  Pack& q = particles.motion[p * motion_packs<Dim> + last];
+  const Pack moved = fused(splat(dt), m.r[last], q);
+  q = Dim == 2 ? __builtin_shufflevector(q, moved, 0, 1, 6, 7) : moved;
+}
+
 }  // namespace
 
 template <int Dim, class Shape>
@@ -54,14 +63,13 @@ void update_velocities_and_project(State<Dim>& state, const Model<Dim>& model, s
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
   Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
   Particles<Dim>& particles = state.particles;
-  const Advance<Dim> advance(0., dt);
   for_packs<Dim, Shape>(state, model, b,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
                           const Pack m_p = particles.mass_volume[2 * std::size_t{pack}];
                           Pack record[lanes];
                           for (int l = 0; l < lanes; ++l) {
                             const std::size_t p = std::size_t{pack} * lanes + l;
-                            advance.apply(particles, p, interpolate<Dim, Shape>(stencil, targets, l, motion));
+                            accelerate(particles, p, interpolate<Dim, Shape>(stencil, targets, l, motion), dt);
                             record[l] = particles.momentum_record(p, m_p[l]);
                           }
                           scatter<Dim, Shape>(stencil, targets, record, tiles);
@@ -108,8 +116,10 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
 }
 
 template <int Dim, class Shape>
-void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const std::vector<Vec<Dim>>& load_values) {
-  if (state.scratch[b].loaded.empty()) return;
+void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const std::vector<Vec<Dim>>& load_values,
+                   const Vec<Dim>& body_force) {
+  const bool mirrors = model.any_body_force() && !model.symmetries.empty() && state.blocks.list[b].has_particles();
+  if (state.scratch[b].loaded.empty() && !mirrors) return;
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
   for_loaded<Dim, Shape>(state, model, b,
                          [&](const LoadedParticle<Dim>& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets) {
@@ -120,12 +130,28 @@ void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
                                  model.loads[loaded.load].share[loaded.entry][k] * load_values[loaded.load][k] * (v - 0.5 * a * dt) * dt;
                            }
                          });
+  if (!mirrors) return;
+  for_packs<Dim, Shape>(state, model, b,
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
+                          for (int l = 0; l < lanes && targets; ++l) {
+                            const double m_p = state.particles.mass(std::size_t{pack} * lanes + l);
+                            for_stencil<Dim, Shape>(stencil, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {
+                              for (int k = 0; k < Dim; ++k) {
+                                const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
+                                // The nodes' account took this mass as if it were no image.
+                                if (flip >> k & 1u)
+                                  state.scratch[b].ledger.body_work -= 2 * stencil.S[n][l] * m_p * body_force[k] * (v - 0.5 * a * dt) * dt;
+                              }
+                            });
+                          }
+                        });
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                          \
-  template void update_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);  \
-  template void finish_particles<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, bool); \
-  template void account_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const std::vector<Vec<DIM>>&);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                      \
+  template void update_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);              \
+  template void finish_particles<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, bool);             \
+  template void account_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const std::vector<Vec<DIM>>&, \
+                                          const Vec<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 
