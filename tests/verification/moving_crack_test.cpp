@@ -23,7 +23,7 @@ cell = 0.0625
 end = 0.625
 step = 2e-3
 [method]
-shape_functions = "{}"
+{}
 [[material]]
 name = "m"
 law = "elastic_small_strain"
@@ -57,7 +57,9 @@ contact = {{ law = "frictionless" }}
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Shapes, Translation, testing::Values("linear", "gimp", "bspline"));
+INSTANTIATE_TEST_SUITE_P(Shapes, Translation,
+                         testing::Values("shape_functions = \"linear\"", "shape_functions = \"gimp\"", "shape_functions = \"bspline\"",
+                                         "shape_functions = \"bspline\"\ncrack_shape_functions = \"same\""));
 
 /// A disk of ten cells' radius turns by 90 degrees with omega R / c = 0.01. A lumped grid gives boundary nodes the velocity of their
 /// particles' centre of mass, up to a third of a cell further in; a disk set spinning rings by that, with strains of about

@@ -6,6 +6,10 @@ namespace crampon {
 enum class ShapeFunctionKind { linear, gimp, bspline };
 enum class StressUpdate { usl, musl, usf, usavg };
 
+/// By what crack points read the velocities of nodes: linear functions, or those of a particle without size (B-splines where particles
+/// have them).
+enum class CrackShapeFunctions { linear, same };
+
 /// N13 contacts first, N03 imposes boundary conditions first (CONVENTIONS 26).
 enum class BoundaryOrder { contact_first, boundary_first };
 /// Force on fixed components: incremental (contact-consistency.md), N13 Eq. 1, or zero (N03).

@@ -52,6 +52,9 @@ const Declaration<MethodInput>& method_declaration() {
           .choice("shape_functions", &MethodInput::shape_functions,
                   {{"linear", ShapeFunctionKind::linear}, {"gimp", ShapeFunctionKind::gimp}, {"bspline", ShapeFunctionKind::bspline}},
                   "bilinear (trilinear), uGIMP, or quadratic B-spline")
+          .choice("crack_shape_functions", &MethodInput::crack_shape_functions,
+                  {{"linear", CrackShapeFunctions::linear}, {"same", CrackShapeFunctions::same}},
+                  "by what crack points are moved: linear functions, or B-splines where particles have them")
           .function("damping", &MethodInput::damping, "1/s", "grid damping kappa (N03 Eq. 4); may vary in time")
           .function("body_force", &MethodInput::body_force, "m/s2", "acceleration, one per dimension; may vary in time", Presence::optional,
                     two_or_three)

@@ -42,6 +42,7 @@ struct TimeInput : Located {
 struct MethodInput : Located {
   StressUpdate stress_update = StressUpdate::usavg;
   ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
+  CrackShapeFunctions crack_shape_functions = CrackShapeFunctions::linear;
   ValueFunction damping;                  ///< grid damping kappa of N03 Eq. 4, 1/s, may vary in time
   std::vector<ValueFunction> body_force;  ///< acceleration b, m/s2, one per dimension or empty; uniform in space
   using BoundaryOrder = crampon::BoundaryOrder;

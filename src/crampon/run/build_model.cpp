@@ -320,6 +320,7 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
                                                                     : StressState::three_dimensional;
   model.stress_update = problem.method.stress_update;
   model.shape_functions = problem.method.shape_functions;
+  model.crack_shape_functions = problem.method.crack_shape_functions;
   model.boundary_order = problem.method.boundary_order;
   model.fixed_force = problem.method.fixed_force;
   model.leaving_particle = problem.method.leaving_particle;

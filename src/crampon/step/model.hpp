@@ -63,6 +63,7 @@ struct Model {
   bool damped = false;
   StressUpdate stress_update = StressUpdate::usavg;
   ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
+  CrackShapeFunctions crack_shape_functions = CrackShapeFunctions::linear;
   BoundaryOrder boundary_order = BoundaryOrder::contact_first;
   FixedForce fixed_force = FixedForce::incremental;
   LeavingParticle leaving_particle = LeavingParticle::error;

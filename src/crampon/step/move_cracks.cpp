@@ -23,7 +23,7 @@ Vec<2> vertex_normal(const Crack<2>& crack, std::size_t v) {
 /// Cells between a vertex of the plane and its surface points up to which the bins know all segments between them.
 constexpr int surface_reach = 2;
 
-/// A node as a crack vertex sees it: linear S and the node's place in the arrays.
+/// A node as a crack vertex sees it: S and the node's place in the arrays.
 struct NodeShare {
   double S = 0;
   Vec<2> x;
@@ -31,18 +31,38 @@ struct NodeShare {
   int local = 0;
 };
 
-std::array<NodeShare, 4> nodes_around(const State<2>& state, const Grid<2>& grid, const Vec<2>& x) {
-  std::array<NodeShare, 4> out;
-  IndexVector<2> cell{};
-  double f[2];
-  for (int k = 0; k < 2; ++k) {
-    const double g = (x[k] - grid.origin[k]) * grid.inverse_cell[k];
-    cell[k] = static_cast<int>(std::floor(g));
-    f[k] = g - cell[k];
+/// Weights along one axis of a point without size: linear, or quadratic B-spline. first: the lowest of `width` nodes.
+struct AxisWeights {
+  int first = 0;
+  std::array<double, 3> w{};
+
+  AxisWeights(double g, bool bspline) {
+    if (!bspline) {
+      first = static_cast<int>(std::floor(g));
+      w = {1 - (g - first), g - first, 0};
+      return;
+    }
+    first = static_cast<int>(std::floor(g - 0.5));
+    const double f = g - 0.5 - first;
+    w = {0.5 * (1 - f) * (1 - f), 0.75 - (f - 0.5) * (f - 0.5), 0.5 * f * f};
   }
-  for (int n = 0; n < 4; ++n) {
-    const IndexVector<2> node{cell[0] + n % 2, cell[1] + n / 2};
-    out[n].S = (n % 2 ? f[0] : 1 - f[0]) * (n / 2 ? f[1] : 1 - f[1]);
+};
+
+bool by_bsplines(const Model<2>& model) {
+  return model.shape_functions == ShapeFunctionKind::bspline && model.crack_shape_functions == CrackShapeFunctions::same;
+}
+
+/// The nodes that S reaches from x; those out of reach have S = 0.
+std::array<NodeShare, 9> nodes_around(const State<2>& state, const Model<2>& model, const Vec<2>& x) {
+  const Grid<2>& grid = model.grid;
+  std::array<NodeShare, 9> out;
+  const bool bspline = by_bsplines(model);
+  const AxisWeights along_x((x[0] - grid.origin[0]) * grid.inverse_cell[0], bspline);
+  const AxisWeights along_y((x[1] - grid.origin[1]) * grid.inverse_cell[1], bspline);
+  for (int n = 0; n < 9; ++n) {
+    const IndexVector<2> node{along_x.first + n % 3, along_y.first + n / 3};
+    out[n].S = along_x.w[n % 3] * along_y.w[n / 3];
+    if (out[n].S == 0) continue;
     out[n].x = grid.node_position(node);
     IndexVector<2> block{};
     int local = 0, stride = 1;
@@ -65,10 +85,10 @@ std::array<NodeShare, 4> nodes_around(const State<2>& state, const Grid<2>& grid
 }
 
 /// Centre-of-mass velocity of all fields around x; none when no node there has mass.
-std::optional<Vec<2>> plane_velocity(const State<2>& state, const Grid<2>& grid, const Vec<2>& x) {
+std::optional<Vec<2>> plane_velocity(const State<2>& state, const Model<2>& model, const Vec<2>& x) {
   Vec<2> sum{};
   double weight = 0;
-  for (const NodeShare& node : nodes_around(state, grid, x)) {
+  for (const NodeShare& node : nodes_around(state, model, x)) {
     if (node.block == no_block || node.S == 0) continue;
     const BlockLayers<2>& layers = state.nodes.layers[node.block];
     Pack p = splat(0.);
@@ -87,8 +107,9 @@ std::optional<Vec<2>> plane_velocity(const State<2>& state, const Grid<2>& grid,
 /// a surface point itself may lie a hair beyond the plane while the crack is closed, and would then go with the wrong side for good.
 /// Weights are those of the plane, S alone: where faces press on each other they share the normal velocity at every node, and both
 /// surfaces then move as one; weights by mass (fracture.md 6.4) let them drift by the strain over a third of a cell.
-std::optional<Vec<2>> surface_velocity(const State<2>& state, const Grid<2>& grid, const std::vector<CrackPath>& paths,
+std::optional<Vec<2>> surface_velocity(const State<2>& state, const Model<2>& model, const std::vector<CrackPath>& paths,
                                        const FacetBins& bins, const Vec<2>& from, const Vec<2>& x) {
+  const Grid<2>& grid = model.grid;
   Vec<2> sum{};
   double weight = 0;
   const auto cell_of = [&](int k, double coordinate) {
@@ -96,8 +117,9 @@ std::optional<Vec<2>> surface_velocity(const State<2>& state, const Grid<2>& gri
   };
   const auto facets = bins.facets_of_cell(cell_of(0, from[0]), cell_of(1, from[1]));
   bool within_reach = true;
-  for (int k = 0; k < 2; ++k) within_reach = within_reach && std::abs(cell_of(k, x[k]) - cell_of(k, from[k])) <= surface_reach;
-  for (const NodeShare& node : nodes_around(state, grid, x)) {
+  for (int k = 0; k < 2; ++k)
+    within_reach = within_reach && std::abs(cell_of(k, x[k]) - cell_of(k, from[k])) <= surface_reach - (by_bsplines(model) ? 1 : 0);
+  for (const NodeShare& node : nodes_around(state, model, x)) {
     if (node.block == no_block || node.S == 0) continue;
     Signature signature;
     bool fits = true;
@@ -179,9 +201,9 @@ void move_cracks<2>(State<2>& state, const Model<2>& model, double dt) {
     motion[c].lower.resize(n);
     parallel_for(n, model.threads, [&](std::size_t v) {
       const Vec<2> down = vertex_normal(crack, v);
-      motion[c].plane[v] = plane_velocity(state, model.grid, crack.plane[v]);
-      motion[c].upper[v] = surface_velocity(state, model.grid, paths, bins, crack.plane[v] - down * nudge, crack.upper[v]);
-      motion[c].lower[v] = surface_velocity(state, model.grid, paths, bins, crack.plane[v] + down * nudge, crack.lower[v]);
+      motion[c].plane[v] = plane_velocity(state, model, crack.plane[v]);
+      motion[c].upper[v] = surface_velocity(state, model, paths, bins, crack.plane[v] - down * nudge, crack.upper[v]);
+      motion[c].lower[v] = surface_velocity(state, model, paths, bins, crack.plane[v] + down * nudge, crack.lower[v]);
     });
     fill_gaps(motion[c].plane);
     for (std::size_t v = 0; v < n; ++v) {
