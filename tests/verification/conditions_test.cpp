@@ -85,6 +85,7 @@ TEST(Conditions, ContradictionsAreRefused) {
             std::string::npos);
   EXPECT_EQ(refused(bar + pulled("a", "1") + pulled("b", "1")), "") << "the same value twice";
   EXPECT_EQ(refused(bar + pulled("a", "0", "end = \"3 us\"\n") + pulled("b", "1", "start = \"3 us\"\n")), "") << "one after the other";
+  EXPECT_EQ(refused(bar + pulled("a", "0") + pulled("b", "1", "start = \"3 us\"\n")), "") << "the first holds for a while";
   EXPECT_EQ(
       refused(bar + pulled("a", "0") + "[[boundary]]\nname = \"b\"\nregion = { kind = \"point\", at = [\"4 mm\", \"2 mm\"] }\nvy = 1\n"),
       "")

@@ -50,17 +50,16 @@ void for_nodes(const Grid<Dim>& grid, const Bounds3& box, F f) {
   }
 }
 
-/// Times at which two conditions that hold together are compared.
+/// Times at which a condition is compared with one that overrules it from its start to its end; none where it holds for a while.
 template <int Dim>
 std::vector<double> common_times(const VelocityCondition<Dim>& a, const VelocityCondition<Dim>& b) {
-  const double start = std::fmax(a.start, b.start), end = std::fmin(a.end, b.end);
-  if (!(start < end)) return {};
-  const double span = std::isfinite(end) ? end - start : 1.;
-  return {start, start + 0.37 * span, start + 0.81 * span};
+  if (b.start > a.start || b.end < a.end || !(a.start < a.end)) return {};
+  const double span = std::isfinite(a.end) ? a.end - a.start : 1.;
+  return {a.start, a.start + 0.37 * span, a.start + 0.81 * span};
 }
 
 /// Of several values for one component at a node the last one stated holds, so that a part of a region can differ from the rest.
-/// A condition that others overrule everywhere with another value is a contradiction.
+/// A condition that another overrules everywhere and all the time with another value is a contradiction.
 template <int Dim>
 void check_contradictions(const Model<Dim>& model, const std::vector<const Located*>& stated, std::vector<Diagnostic>& errors) {
   for (std::size_t i = 0; i < model.conditions.size(); ++i) {
