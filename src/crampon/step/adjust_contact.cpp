@@ -219,7 +219,8 @@ class NodeFinder {
         pair.b = static_cast<int>(g_above ? h : g);
         const ContactGroup<Dim>&a = out_.groups[contact.first_group + pair.a], &b = out_.groups[contact.first_group + pair.b];
         const double fraction = a.m / (a.m + b.m);
-        if (fraction < model_.contact.mass_screen || 1 - fraction < model_.contact.mass_screen) continue;  // CONVENTIONS 37
+        const bool bonded = std::holds_alternative<BondedContact>(model_.crack_laws[static_cast<std::size_t>(c)]);
+        if (!bonded && std::fmin(fraction, 1 - fraction) < model_.contact.mass_screen) continue;  // CONVENTIONS 37
         pair.crack = static_cast<CrackId>(c);
         pair.others = g_across ? sums_[h].signature : sums_[g].signature;
         pair.n = crack->n;
