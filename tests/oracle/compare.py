@@ -15,8 +15,9 @@ import traceback
 
 import numpy as np
 
-import cases
 import cramp
+from emit import emit
+from option_cases import all_cases
 from vtk_read import read_series, read_vtp
 
 TOLERANCE = 1e-9
@@ -47,7 +48,7 @@ def oracle_frames(case):
 
 
 def engine_frames(case, program, folder):
-    source = cases.emit(case, folder)
+    source = emit(case, folder)
     results = os.path.join(folder, case["name"] + "_results")
     done = subprocess.run([program, "run", source, "--output", results, "--force", "--quiet"], capture_output=True, text=True)
     if done.returncode != 0:
@@ -96,7 +97,7 @@ def main():
     parser.add_argument("--folder", help="keep inputs and results here")
     parser.add_argument("--list", action="store_true", help="print the names of the cases")
     arguments = parser.parse_args()
-    chosen = [c for c in cases.all_cases() if not arguments.case or any(text in c["name"] for text in arguments.case)]
+    chosen = [c for c in all_cases() if not arguments.case or any(text in c["name"] for text in arguments.case)]
     if arguments.list:
         print("\n".join(c["name"] for c in chosen))
         return 0

@@ -7,6 +7,7 @@ SI throughout. A case is a dictionary; see cases.py.
 import math
 
 import contact as ct
+from crack_motion import move_cracks
 from crossing import crosses_crack, segment_normal
 from parts import Crack, Grid, Particle, Symmetry, function
 from shapes import shape_2d
@@ -27,15 +28,15 @@ class Model:
         self.body_force = [function(b) for b in case.get("body_force", (0.0, 0.0))]
         self.order = case.get("order", "contact_first")
         self.fixed_force = case.get("fixed_force", "incremental")
-        self.contact = dict({"scheme": "consistent", "detection": "displacement", "volume_separated": 0.9,
-                             "volume_contact": 1.1, "require_approach": True, "mass_screen": 1e-6}, **case.get("contact", {}))
+        self.contact = dict({"scheme": "consistent", "detection": "displacement", "pairs": "joint", "volume_separated": 0.9,
+                             "volume_contact": 1.1, "require_approach": True, "reference_volume": "cell", "mass_screen": 1e-6}, **case.get("contact", {}))
         self.particles = [Particle(row, body, case["materials"][body["material"]], analysis)
                           for body in case["bodies"] for row in body["particles"]]
         self.cracks = [Crack(i, c) for i, c in enumerate(case.get("cracks", []))]
-        self.bonded = frozenset(c.index for c in self.cracks if c.law == "bonded")
+        self.joined = frozenset(c.index for c in self.cracks if c.law == "bonded" and self.contact["pairs"] == "joint")
         self.symmetries = [Symmetry(s, self.grid) for s in case.get("symmetries", [])]
-        self.boundaries = [dict(b, value=[None if b.get(c) is None else function(b[c]) for c in ("vx", "vy")])
-                           for b in case.get("boundaries", [])]
+        self.boundaries = [dict(b, value=[None if b.get(c) is None else function(b[c]) for c in ("vx", "vy")],
+                                start=b.get("start", 0.0), end=b.get("end", math.inf)) for b in case.get("boundaries", [])]
         for load in case.get("loads", []):
             chosen = [p for p in self.particles if all(load["low"][k] <= p.X[k] <= load["high"][k] for k in range(2))]
             share = 1 / len(chosen) if load["kind"] == "total_force" else 1.0
@@ -43,7 +44,7 @@ class Model:
                 p.load.append((share, [function(f) for f in load["value"]]))
         self.contact_state = {}  # (node, crack, others): Task-4 state of the last step
         self.crack_side = {}     # (node, crack): side of the particles that look at the node across the crack
-        self.was_prescribed = set()
+        self.reference_volume = None  # by node, of all particles at t = 0
 
     # ---------------------------------------------------------------- one step, N03 Appendix A in the order of N13
     def step(self):
@@ -84,7 +85,7 @@ class Model:
         elif self.update == "usavg":
             self.update_stress(dt / 2)
         self.store_contact_state()
-        self.move_cracks()                                     # Task 8 of N13
+        move_cracks(self)                                      # Task 8 of N13
         for p, x in zip(self.particles, moved):
             p.x = x
         self.k += 1
@@ -130,8 +131,15 @@ class Model:
                             N[c] += R[c] * then[c]
                     side_sum[key] = side_sum.get(key, 0) + side
         self.side = {key: 1 if s >= 0 else -1 for key, s in side_sum.items()}
-        self.normal = {key: [c / math.hypot(*n) for c in n] for key, n in normal.items()}
-        self.original_normal = {key: [c / math.hypot(*n) for c in n] for key, n in original.items()}
+        self.normal = {key: self.unit_normal(key[0], n) for key, n in normal.items()}
+        self.original_normal = {key: self.unit_normal(key[0], n) for key, n in original.items()}
+
+    def unit_normal(self, node, n):
+        """On a symmetry plane without the component along the plane's normal (contact.md 6). None: nothing is left."""
+        across = {s.axis for s in self.symmetries if s.holds(self.grid.position(node))}
+        n = [0.0 if k in across else c for k, c in enumerate(n)]
+        length = math.hypot(*n)
+        return [c / length for c in n] if length > 1e-9 else None  # a sum of unit vectors: less is rounding
 
     def project_momentum(self):
         """N03 Eqs. 26, 27, and mean positions per field (contact.md 2.2)."""
@@ -152,24 +160,37 @@ class Model:
                     now[k] += m * x[k]
                     then[k] += m * X[k]
                 self.volume[key[0]] = self.volume.get(key[0], 0.0) + area * S
+        if self.reference_volume is None:
+            self.reference_volume = dict(self.volume)
         self.find_constraints()
         self.zero_on_planes(self.p)
         self.find_pairs()
 
+    def conditions(self, t):
+        """Boundary conditions that a step starting at t belongs to."""
+        return [b for b in self.boundaries if b["start"] <= t < b["end"]]
+
     def find_constraints(self):
-        """Per node with mass: components held by a symmetry plane, and components with a prescribed velocity."""
-        self.held, self.fixed = {}, {}
+        """Per node with mass: components held by a symmetry plane, and components with a prescribed velocity.
+
+        Of several conditions the last stated holds. fresh: prescribed now, but by no condition in the step before.
+        """
+        self.held, self.fixed, self.fresh = {}, {}, set()
+        slack = 1e-9 * self.grid.h
+        now, before = self.conditions(self.t), self.conditions((self.k - 1) * self.dt) if self.k else []
         for node in {key[0] for key in self.m}:
             x = self.grid.position(node)
             for s in self.symmetries:
                 if s.holds(x):
                     self.held.setdefault(node, set()).add(s.axis)
-            for b in self.boundaries:
-                slack = 1e-9 * self.grid.h
-                if all(b["low"][k] - slack <= x[k] <= b["high"][k] + slack for k in range(2)):
-                    for k in range(2):
-                        if b["value"][k] is not None:
-                            self.fixed.setdefault(node, {})[k] = b["value"][k]
+            here, there = ([b for b in conditions if all(b["low"][k] - slack <= x[k] <= b["high"][k] + slack for k in range(2))]
+                           for conditions in (now, before))
+            for k in range(2):
+                values = [b["value"][k] for b in here if b["value"][k] is not None]
+                if values:
+                    self.fixed.setdefault(node, {})[k] = values[-1]
+                    if all(b["value"][k] is None for b in there):
+                        self.fresh.add((node, k))
 
     def zero_on_planes(self, field):
         for key, value in field.items():
@@ -178,11 +199,15 @@ class Model:
 
     # ---------------------------------------------------------------- contact
     def find_pairs(self):
-        """Groups of fields joined by bonded cracks, and the pairs of groups that differ by one crack, for every node."""
+        """Groups of fields joined by bonded cracks, and the pairs of groups that differ by one crack, for every node.
+
+        Done one after another (N13), bonded cracks make pairs like others. Order: by crack, then by what else lies between
+        the pair and the node, as the number that N13 gives that field: [0][1], [2][3], then [0][2], [1][3] (CONVENTIONS 13).
+        """
         self.groups, self.node_pairs = {}, {}
         members = {}
         for node, signature in self.m:
-            members.setdefault(node, {}).setdefault(signature - self.bonded, []).append((node, signature))
+            members.setdefault(node, {}).setdefault(signature - self.joined, []).append((node, signature))
         for node, groups in members.items():
             if sum(len(keys) for keys in groups.values()) < 2:
                 continue
@@ -191,15 +216,15 @@ class Model:
             pairs = []
             for crack in self.cracks:
                 c = crack.index
-                if crack.law in ("none", "bonded"):
+                if crack.law == "none" or c in self.joined:
                     continue
-                for far in sorted((s for s in groups if c in s and s - {c} in groups), key=sorted):
-                    near = far - {c}
+                for near in sorted((s for s in groups if c not in s and s | {c} in groups), key=ct.field_number):
+                    far = near | {c}
                     above, below = (far, near) if self.side[node, c] > 0 else (near, far)
                     fraction = mass[above] / (mass[above] + mass[below])
-                    if min(fraction, 1 - fraction) < self.contact["mass_screen"]:
-                        continue
-                    pairs.append(self.make_pair(node, crack, groups, above, below, near))
+                    screened = min(fraction, 1 - fraction) < self.contact["mass_screen"] or self.normal[node, c] is None
+                    if crack.law == "bonded" or not screened:
+                        pairs.append(self.make_pair(node, crack, groups, above, below, near))
             self.node_pairs[node] = pairs
 
     def make_pair(self, node, crack, groups, above, below, others):
@@ -211,12 +236,12 @@ class Model:
             return [sum(table[key][k] for key in keys) / m for k in range(2)]
 
         gap = None
-        if self.contact["detection"] == "displacement":
+        if self.contact["detection"] == "displacement" and crack.law != "bonded":
             x_a, x_b = mean(self.x_sum, groups[above]), mean(self.x_sum, groups[below])
             X_a, X_b = mean(self.X_sum, groups[above]), mean(self.X_sum, groups[below])
             gap = sum((x_b[k] - x_a[k]) * n[k] - (X_b[k] - X_a[k]) * N[k] for k in range(2))
         pair = ct.Pair(above, below, crack, n, gap, (node, crack.index, others))
-        flipped = {d for d in range(len(self.cracks)) if d != crack.index and (node, d) in self.side and
+        flipped = {d for d in range(len(self.cracks)) if d not in self.joined | {crack.index} and (node, d) in self.side and
                    self.crack_side.get((node, d), self.side[node, d]) != self.side[node, d]}
         pair.previous = self.contact_state.get((node, crack.index, others ^ flipped), ct.OPEN)
         return pair
@@ -235,12 +260,15 @@ class Model:
             free = [0 if k in locked else 1 for k in range(2)]
             pairs = self.node_pairs[node]
             if pairs:
-                relative_volume = self.volume[node] / self.grid.h ** 2
+                undeformed = self.grid.h ** 2 if self.contact["reference_volume"] == "cell" else self.reference_volume[node]
                 if self.contact["scheme"] == "literal":
-                    rule = ct.literal_rule(self, self.dt, relative_volume)
+                    rule = ct.literal_rule(self, self.dt, self.volume[node] / undeformed)
                 else:
-                    rule = ct.consistent_rule(task, self, self.dt, relative_volume)
-                ct.solve_node(state, pairs, rule, free)
+                    rule = ct.consistent_rule(task, self, self.dt, self.volume[node] / undeformed)
+                ct.solve_node(state, pairs, ct.bonded_always(rule), free, self.contact["pairs"] == "joint")
+                if task == 4:
+                    for pair in pairs:
+                        pair.w_end = pair.w_after
             for signature, keys in groups.items():
                 _, v = state[signature]
                 for key in keys:
@@ -265,7 +293,7 @@ class Model:
         """
         for key, p in self.p.items():
             for k, value in self.fixed.get(key[0], {}).items():
-                if task == 2 and self.fixed_force == "incremental" and self.k == 0:
+                if task == 2 and self.fixed_force == "incremental" and (key[0], k) in self.fresh:
                     continue
                 p[k] = self.m[key] * value(t, *self.grid.position(key[0]))
 
@@ -329,88 +357,6 @@ class Model:
                     for j in range(2):
                         L[i][j] += v * G[j]
             p.material.update(L, dt)
-
-    # ---------------------------------------------------------------- cracks
-    def move_cracks(self):
-        """N03 Eq. 32, CONVENTIONS 39: v = sum S v_cm / sum S over nodes with mass; surfaces with their own side's fields."""
-        momentum, mass = {}, {}
-        for key, p in self.p.items():
-            total = momentum.setdefault(key[0], [0.0, 0.0])
-            mass[key[0]] = mass.get(key[0], 0.0) + self.m[key]
-            for k in range(2):
-                total[k] += p[k]
-        pending = []
-        for crack in self.cracks:
-            plane = self.fill([self.node_average(x, momentum, mass) for x in crack.plane])
-            upper, lower = ([self.side_average(crack, k, x, up) or plane[k] for k, x in enumerate(points)]
-                            for points, up in ((crack.upper, 1), (crack.lower, -1)))
-            pending.append((crack, self.moved(crack.plane, plane), self.moved(crack.upper, upper), self.moved(crack.lower, lower)))
-        for crack, plane, upper, lower in pending:
-            crack.upper, crack.lower = upper, lower
-            if not crack.fixed:
-                crack.plane = plane
-                if crack.law != "none":
-                    self.keep_sides(crack)
-
-    def moved(self, points, velocities):
-        return [(x[0] + self.dt * v[0], x[1] + self.dt * v[1]) for x, v in zip(points, velocities)]
-
-    def shape_at(self, point):
-        """Crack vertices are points without a size: linear shape functions, whatever the particles have."""
-        return shape_2d("linear", point[0], point[1], self.grid, self.half_size)
-
-    def node_average(self, point, momentum, mass):
-        weight, v = 0.0, [0.0, 0.0]
-        for node, S, _ in self.shape_at(point):
-            target, R, _ = self.fold(point, node)
-            if target in mass:
-                weight += S
-                for k in range(2):
-                    v[k] += R[k] * S * momentum[target][k] / mass[target]
-        return None if weight == 0 else (v[0] / weight, v[1] / weight)
-
-    @staticmethod
-    def vertex_normal(plane, k):
-        """Unit normal at a vertex, from above to below: the mean of the segments that meet there."""
-        n = [0.0, 0.0]
-        for segment in (k - 1, k):
-            if 0 <= segment < len(plane) - 1:
-                s = segment_normal(plane, segment)
-                n = [n[0] + s[0], n[1] + s[1]]
-        length = math.hypot(*n)
-        return n[0] / length, n[1] / length
-
-    def side_average(self, crack, k, point, up):
-        """v = sum S v / sum S over the fields that the plane's vertex, just off the plane on this side, looks at."""
-        n = self.vertex_normal(crack.plane, k)
-        vertex = [crack.plane[k][c] - up * 1e-8 * self.grid.h * n[c] for c in range(2)]
-        weight, v = 0.0, [0.0, 0.0]
-        for node, S, _ in self.shape_at(point):
-            signature, _ = self.crossings(vertex, self.grid.position(node))
-            target, R, _ = self.fold(vertex, node)
-            key = (target, signature)
-            if key in self.m:
-                weight += S
-                for c in range(2):
-                    v[c] += R[c] * S * self.p[key][c] / self.m[key]
-        return None if weight == 0 else (v[0] / weight, v[1] / weight)
-
-    def keep_sides(self, crack):
-        """Surface points of faces that can touch do not stay beyond the plane between them (fracture.md 6.4, no plane crossing)."""
-        for k, x in enumerate(crack.plane):
-            n = self.vertex_normal(crack.plane, k)
-            for points, side in ((crack.upper, 1), (crack.lower, -1)):
-                beyond = side * sum((points[k][c] - x[c]) * n[c] for c in range(2))
-                if beyond > 0:
-                    points[k] = tuple(points[k][c] - side * beyond * n[c] for c in range(2))
-
-    @staticmethod
-    def fill(velocities):
-        """Vertices without a massive node go with the nearest vertex that has one (CONVENTIONS 39)."""
-        known = [k for k, v in enumerate(velocities) if v is not None]
-        if not known:
-            return [(0.0, 0.0)] * len(velocities)
-        return [v if v is not None else velocities[min(known, key=lambda j: abs(j - k))] for k, v in enumerate(velocities)]
 
     # ---------------------------------------------------------------- what tests look at
     def momentum(self):

@@ -65,3 +65,13 @@ def shape_2d(kind, x, y, grid, half_size):
     along_x = one(x, grid.x0, grid.h, half_size)
     along_y = one(y, grid.y0, grid.h, half_size)
     return [((i, j), sx * sy, (gx * sy, sx * gy)) for j, sy, gy in along_y for i, sx, gx in along_x]
+
+
+def point_2d(x, grid):
+    """[((i, j), S)] of a point without a size, a crack vertex: linear, and exactly on a grid line only the nodes of that line."""
+    one = []
+    for k, start in enumerate((grid.x0, grid.y0)):
+        cell = math.floor((x[k] - start) / grid.h)
+        fraction = (x[k] - start) / grid.h - cell
+        one.append([(cell, 1 - fraction), (cell + 1, fraction)])
+    return [((i, j), sx * sy) for j, sy in one[1] for i, sx in one[0] if sx * sy > 0]

@@ -10,6 +10,7 @@ import cases
 import contact
 import cramp
 from crossing import crosses_crack
+from emit import emit
 from materials import LAWS
 from shapes import SHAPES, shape_2d
 
@@ -363,7 +364,7 @@ def emitted_inputs_parse():
     import tomllib
     with tempfile.TemporaryDirectory() as folder:
         for case in cases.all_cases():
-            with open(cases.emit(case, folder), "rb") as stream:
+            with open(emit(case, folder), "rb") as stream:
                 data = tomllib.load(stream)
             assert len(data.get("crack", [])) == len(case.get("cracks", [])) and len(data["body"]) == len(case["bodies"])
     names = [c["name"] for c in cases.all_cases()]
