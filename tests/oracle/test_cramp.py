@@ -12,6 +12,7 @@ import cramp
 from crossing import crosses_crack
 from emit import emit
 from materials import LAWS
+from option_cases import all_cases
 from shapes import SHAPES, shape_2d
 
 H = cases.H
@@ -363,17 +364,17 @@ def emitted_inputs_parse():
     import tempfile
     import tomllib
     with tempfile.TemporaryDirectory() as folder:
-        for case in cases.all_cases():
+        for case in all_cases():
             with open(emit(case, folder), "rb") as stream:
                 data = tomllib.load(stream)
             assert len(data.get("crack", [])) == len(case.get("cracks", [])) and len(data["body"]) == len(case["bodies"])
-    names = [c["name"] for c in cases.all_cases()]
+    names = [c["name"] for c in all_cases()]
     assert len(set(names)) == len(names)
 
 
-def main():
+def main(checks):
     failed = 0
-    chosen = [c for c in CHECKS if len(sys.argv) < 2 or c.__name__ in sys.argv[1:]]
+    chosen = [c for c in checks if len(sys.argv) < 2 or c.__name__ in sys.argv[1:]]
     for function in chosen:
         try:
             function()
@@ -387,4 +388,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(CHECKS))

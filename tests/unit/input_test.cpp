@@ -170,6 +170,13 @@ TEST(ReadProblem, FilesAreRelativeToTheInput) {
   std::filesystem::remove_all(place);
 }
 
+TEST(ReadProblem, DeepKeysAreRefused) {
+  std::string deep = "a";
+  for (int k = 0; k < 50000; ++k) deep += ".a";
+  for (const std::string& text : {deep + " = 1\n", "[" + deep + "]\n", "x = { " + deep + " = 1 }\n"})
+    EXPECT_NE(errors_of(text).at(0).find("more than a hundred parts"), std::string::npos);
+}
+
 TEST(Overrides, ReplaceAndAddEntries) {
   const Problem p = read_problem_text(rich_input, "in.toml", folder,
                                       {"method.stress_update=\"musl\"", "method.shape_functions=gimp", "body[0].velocity=[1, \"2 mm/s\"]",

@@ -1,5 +1,6 @@
 #include "crampon/input/toml_source.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 
@@ -88,13 +89,37 @@ std::string trim(std::string_view text) {
 
 }  // namespace
 
+namespace {
+
+// The parser descends once for every part of a dotted key; no key of ours has more than a few.
+bool refuse_deep_keys(const std::string& text, const std::string& file, Diagnostics& diagnostics) {
+  constexpr std::ptrdiff_t most_parts = 100;
+  int line = 1;
+  for (std::size_t from = 0; from < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', from), text.size());
+    for (std::size_t at = from; at < end;) {  // dots between what may separate keys from values
+      const std::size_t stop = std::min(text.find_first_of("=,{}[]\"'#", at), end);
+      if (std::count(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(stop), '.') > most_parts) {
+        diagnostics.add(Location{file, line, static_cast<int>(at - from + 1), ""}, "a key of more than a hundred parts",
+                        "keys are grouped in tables, at most a few deep", "correct the key");
+        return true;
+      }
+      at = stop + 1;
+    }
+    from = end + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::optional<toml::table> parse_toml(const std::string& text, const std::string& file, Diagnostics& diagnostics) {
   if (text.size() > largest_input) {
     diagnostics.add(Location{file, 0, 0, ""}, fmt::format("the input has {} bytes", text.size()),
                     fmt::format("at most {} are read", largest_input), "put particles and tables into files of their own");
     return std::nullopt;
   }
-  if (refuse_bad_characters(text, file, diagnostics)) return std::nullopt;
+  if (refuse_bad_characters(text, file, diagnostics) || refuse_deep_keys(text, file, diagnostics)) return std::nullopt;
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
