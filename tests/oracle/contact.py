@@ -18,8 +18,9 @@ class Pair:
         self.key = key  # (node, crack, other cracks between the pair and the node)
         self.previous = OPEN  # consistent scheme: Task-4 state of the last step
         self.state = OPEN
-        self.w_end = 0.0    # normal velocity at the end of Task 4
-        self.w_after = 0.0  # normal velocity after the pair's impulse in this task
+        # Normal velocity after the pair's own impulse as it was applied ("w_end is taken after J", contact-consistency.md), in
+        # this task and kept from Task 4. Of pairs done one after another the text does not say whether later ones count: no.
+        self.w_after = self.w_end = 0.0
         self.J = (0.0, 0.0)
 
 

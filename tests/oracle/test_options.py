@@ -95,14 +95,14 @@ def prescribed_components_stay():
 
 
 def ends_outside_go_along():
-    """Vertices a cell outside the body, on grid lines, move exactly as the next vertex inside."""
+    """Vertices a cell outside the body, exactly on grid lines, make the step of the next vertex inside."""
     model = cramp.Model(next(option_cases.vertex_cases()))
-    for _ in range(5):
-        before = model.cracks[0].plane
-        model.step()
-        moved = [[b[k] - a[k] for k in range(2)] for a, b in zip(before, model.cracks[0].plane)]
-        for end, inside in ((0, 1), (3, 2)):
-            assert all(abs(moved[end][k] - moved[inside][k]) < 1e-17 for k in range(2)) and moved[end] != [0.0, 0.0]
+    before = model.cracks[0].plane
+    model.step()
+    moved = [[b[k] - a[k] for k in range(2)] for a, b in zip(before, model.cracks[0].plane)]
+    for end, inside in ((0, 1), (3, 2)):
+        assert all(abs(moved[end][k] - moved[inside][k]) < 1e-16 for k in range(2))  # positions of 0.05 m, round-off
+        assert max(map(abs, moved[end])) > 1e-6
 
 
 if __name__ == "__main__":
