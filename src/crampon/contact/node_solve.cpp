@@ -144,6 +144,7 @@ class NodeSolve {
                                      : rules_.literal                           ? literal_response(rules_, law, pair, m, w)
                                                                                 : consistent_response(rules_, law, pair, m, w);
       change = std::fmax(change, change_impulse(pair, without_axes(response.J, rules_.fixed_axes)));
+      if (rules_.task == ContactTask::four) pair.w_end = dot(relative_velocity(groups_, pair), pair.n);  // contact-consistency.md: after J
       // Round-off of J is that of the momenta it is made from, however small J itself is.
       largest = std::fmax(largest, std::fmax(norm(pair.J), m * (norm(a.p) / a.m + norm(b.p) / b.m)));
       if (!responses_.empty()) responses_[static_cast<std::size_t>(q)] = response;
@@ -177,11 +178,7 @@ class NodeSolve {
 template <int Dim>
 bool solve_contact(const ContactRules& rules, const std::vector<ContactLawSpec>& laws, ContactGroup<Dim>* groups, int group_count,
                    ContactPair<Dim>* pairs, int pair_count) {
-  const bool converged = NodeSolve<Dim>(rules, laws, groups, group_count, pairs, pair_count).run();
-  if (rules.task == ContactTask::four) {
-    for (int q = 0; q < pair_count; ++q) pairs[q].w_end = dot(relative_velocity(groups, pairs[q]), pairs[q].n);
-  }
-  return converged;
+  return NodeSolve<Dim>(rules, laws, groups, group_count, pairs, pair_count).run();
 }
 
 template bool solve_contact<2>(const ContactRules&, const std::vector<ContactLawSpec>&, ContactGroup<2>*, int, ContactPair<2>*, int);
