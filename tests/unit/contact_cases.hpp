@@ -1,6 +1,8 @@
 #pragma once
 /// Nodes in contact, made at random, for the tests of contact/node_solve.hpp.
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <random>
 #include <vector>
@@ -106,6 +108,8 @@ template <int D>
 struct Dimension {
   static constexpr int value = D;
 };
+using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
+
 inline ContactRules literal_rules() {
   ContactRules rules;
   rules.literal = true;

@@ -11,7 +11,6 @@ namespace {
 
 template <class D>
 class ContactPairs : public testing::Test {};
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(ContactPairs, Dimensions);
 
 /// The fields of a node with two crossing cracks: {} , {0}, {1}, {0, 1} as groups 0..3; pairs of one crack share its normal (CONVENTIONS 25).

@@ -10,7 +10,6 @@ namespace {
 
 template <class D>
 class ContactSolve : public testing::Test {};
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(ContactSolve, Dimensions);
 
 TYPED_TEST(ContactSolve, FrictionCone) {

@@ -43,6 +43,14 @@ std::string name_of(const testing::TestParamInfo<ImpactCase>& info) {
                      info.param.shape_functions);
 }
 
+constexpr const char* soft = R"([[material]]
+name = "soft"
+law = "elastic_small_strain"
+E = "1 MPa"
+nu = 0.3
+density = "1 g/cm3"
+)";
+
 std::string input(const ImpactCase& c, const char* scheme) {
   std::string text = fmt::format(R"(
 [grid]
@@ -56,18 +64,12 @@ courant = 0.3
 shape_functions = "{}"
 [contact]
 scheme = "{}"
-[[material]]
-name = "soft"
-law = "elastic_small_strain"
-E = "1 MPa"
-nu = 0.3
-density = "1 g/cm3"
-[[body]]
+{}[[body]]
 name = "block"
 material = "soft"
 {}
 )",
-                                 h, c.shape_functions, scheme, c.impact->geometry);
+                                 h, c.shape_functions, scheme, soft, c.impact->geometry);
   for (const char* points : c.impact->cracks) {
     text += fmt::format("[[crack]]\npoints = [{}]\ncontact = {}\n", points,
                         c.friction > 0 ? fmt::format("{{ law = \"coulomb\", friction = {} }}", c.friction) : "{ law = \"frictionless\" }");
@@ -184,13 +186,7 @@ courant = 0.3
 [method]
 shape_functions = "{}"
 damping = 300
-[[material]]
-name = "soft"
-law = "elastic_small_strain"
-E = "1 MPa"
-nu = 0.3
-density = "1 g/cm3"
-[[body]]
+{}[[body]]
 name = "block"
 material = "soft"
 shape = {{ kind = "rectangle", low = [0.1, 0], high = [0.3, 0.2] }}
@@ -209,7 +205,7 @@ region = {{ kind = "line", from = [-0.1, 0.2], to = [0.5, 0.2] }}
 vx = {{ times = [0, 0.02, 0.04, 0.1], values = [0, 0, 0.02, 0.02] }}
 vy = {{ times = [0, 0.01, 0.011, 0.1], values = [-0.01, -0.01, 0, 0] }}
 )",
-                                           h, c.shape_functions, c.friction));
+                                           h, c.shape_functions, soft, c.friction));
   double deepest = 0, tangential = 0, normal = 0, slid_before = 0;
   run(*simulation, [&](Simulation& s) {
     deepest = std::fmin(deepest, value(s, "opening_min.cut"));

@@ -37,7 +37,7 @@ struct ContactPair {
   double volume_ratio = 0;                     ///< V_rel of N03 Eq. 10
   ContactState previous = ContactState::open;  ///< Task-4 state of the last step
   ContactState state = ContactState::open;     ///< Task-4 state of this step
-  double w_end = 0;                            ///< normal relative velocity after Task 4, m/s
+  double w_end = 0;                            ///< normal relative velocity right after the impulse of Task 4, m/s
   Vec<Dim> J;                                  ///< impulse on b in the present task, kg m/s
 
   // For the energy that contact takes (BlockLedger::contact_loss).
@@ -88,9 +88,9 @@ struct ContactRules {
   unsigned fixed_axes = 0;  ///< bit k: component k of the node is prescribed and not changed (N13 sec. 2.5)
 };
 
-/// Solves all pairs of one node together: sets dp of every group (sum zero) and J, state and w_end of every pair.
-/// One pair is done in one go; several by Gauss-Seidel sweeps over accumulated impulses until nothing changes.
-/// Returns false when 200 sweeps did not reach 1e-14 of the largest impulse.
+/// Solves all pairs of one node: sets dp of every group (sum zero, kg m/s) and J, state and w_end of every pair. One pair, or pairs in
+/// sequence, are done in one go; several together by sweeps over accumulated impulses until nothing changes by more than 1e-14 of the
+/// momenta about (docs/decisions/0006-joint-contact.md). Returns false when that was not reached. CONVENTIONS 13.
 template <int Dim>
 bool solve_contact(const ContactRules& rules, const std::vector<ContactLawSpec>& laws, ContactGroup<Dim>* groups, int group_count,
                    ContactPair<Dim>* pairs, int pair_count);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "crampon/geometry/arc.hpp"
@@ -50,40 +51,41 @@ void for_nodes(const Grid<Dim>& grid, const Bounds3& box, F f) {
   }
 }
 
-/// Times at which a condition is compared with one that overrules it from its start to its end; none where it holds for a while.
+/// A time at which `a` prescribes another value than `b`, which is stated later, holds at all its nodes, from its start to its end, on the
+/// same axis, and so leaves nothing of it. Values that depend on the place are not compared.
 template <int Dim>
-std::vector<double> common_times(const VelocityCondition<Dim>& a, const VelocityCondition<Dim>& b) {
-  if (b.start > a.start || b.end < a.end || !(a.start < a.end)) return {};
+std::optional<double> overruled_at(const VelocityCondition<Dim>& a, const ValueFunction& of_a, const VelocityCondition<Dim>& b,
+                                   const ValueFunction& of_b) {
+  if (b.start > a.start || b.end < a.end || !(a.start < a.end) || of_a.depends_on_position() || of_b.depends_on_position()) return {};
   const double span = std::isfinite(a.end) ? a.end - a.start : 1.;
-  return {a.start, a.start + 0.37 * span, a.start + 0.81 * span};
+  for (const double t : {a.start, a.start + 0.37 * span, a.start + 0.81 * span}) {  // unlikely to be where two curves cross
+    if (of_a(t, {}) != of_b(t, {})) return t;
+  }
+  return {};
 }
 
 /// Of several values for one component at a node the last one stated holds, so that a part of a region can differ from the rest.
 /// A condition that another overrules everywhere and all the time with another value is a contradiction.
 template <int Dim>
 void check_contradictions(const Model<Dim>& model, const std::vector<const Located*>& stated, std::vector<Diagnostic>& errors) {
-  for (std::size_t i = 0; i < model.conditions.size(); ++i) {
-    for (std::size_t j = i + 1; j < model.conditions.size(); ++j) {
-      const VelocityCondition<Dim>&a = model.conditions[i], &b = model.conditions[j];
-      if (a.nodes.empty() || !std::includes(b.nodes.begin(), b.nodes.end(), a.nodes.begin(), a.nodes.end())) continue;
-      bool told = false;
-      for (const auto& of_a : a.components) {
-        for (const auto& of_b : b.components) {
-          if (told || of_a.axis != of_b.axis) continue;
-          for (const double t : common_times(a, b)) {
-            if (told || of_a.value.depends_on_position() || of_b.value.depends_on_position() || of_a.value(t, {}) == of_b.value(t, {}))
-              continue;
-            told = true;
-            errors.push_back(
-                {stated[i]->location,
-                 fmt::format("\"{}\" prescribes v{} = {:g} m/s where \"{}\" prescribes {:g} m/s, at t = {:g} s", a.name, "xyz"[of_a.axis],
-                             of_a.value(t, {}), b.name, of_b.value(t, {}), t),
-                 b.symmetry ? "material stays on a symmetry plane" : "the one stated last holds, and leaves nothing of the first",
-                 "remove one of them, or part their regions or times"});
-          }
-        }
+  const auto compare = [&](std::size_t i, const VelocityCondition<Dim>& b) {
+    const VelocityCondition<Dim>& a = model.conditions[i];
+    if (a.nodes.empty() || !std::includes(b.nodes.begin(), b.nodes.end(), a.nodes.begin(), a.nodes.end())) return;
+    for (const auto& of_a : a.components) {
+      for (const auto& of_b : b.components) {
+        const auto t = of_a.axis == of_b.axis ? overruled_at(a, of_a.value, b, of_b.value) : std::nullopt;
+        if (!t) continue;
+        errors.push_back({stated[i]->location,
+                          fmt::format("\"{}\" prescribes v{} = {:g} m/s where \"{}\" prescribes {:g} m/s, at t = {:g} s", a.name,
+                                      "xyz"[of_a.axis], of_a.value(*t, {}), b.name, of_b.value(*t, {}), *t),
+                          b.symmetry ? "material stays on a symmetry plane" : "the one stated last holds, and leaves nothing of the first",
+                          "remove one of them, or part their regions or times"});
+        return;
       }
     }
+  };
+  for (std::size_t i = 0; i < model.conditions.size(); ++i) {
+    for (std::size_t j = i + 1; j < model.conditions.size(); ++j) compare(i, model.conditions[j]);
   }
 }
 
