@@ -219,7 +219,7 @@ PointFrame sample_nodes(const State<Dim>& state, const Model<Dim>& model) {
         IndexVector<Dim> node = unflatten<Dim>(n, block_side);
         for (int k = 0; k < Dim; ++k) node[k] += first[k];
         const Vec<Dim> x = model.grid.node_position(node);
-        field.values.push_back(layers.node[l].size());
+        field.values.push_back(layers.node[l].cracks.size());
         mass.values.push_back(p[Dim]);
         for (int k = 0; k < 3; ++k) {
           frame.positions.push_back(k < Dim ? x[k % Dim] : 0.);

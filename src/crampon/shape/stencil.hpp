@@ -44,12 +44,22 @@ struct Stencil {
   static constexpr int count = Tile<Dim, Shape>::stencil;
   Pack S[count];                ///< lanes over particles
   Pack G[count][Dim];           ///< 1/m
-  alignas(32) int base[lanes];  ///< tile index of the lowest node
+  alignas(32) int base[lanes];  ///< index of the lowest node in the tile's layers: layer * nodes + tile index
   bool same_base;               ///< all four particles share it
+  int layer = 0;                ///< of pairs that cross nothing
+
+  /// Tile index of the lowest node of lane l.
+  int lowest(int l) const { return base[l] - layer * Tile<Dim, Shape>::nodes; }
+  /// After compute().
+  void move_to_layer(int to) {
+    layer = to;
+    for (int& b : base) b += to * Tile<Dim, Shape>::nodes;
+  }
 
   /// x: positions, one Pack per axis, m; first_node: grid index of the block's first node.
   void compute(const Pack* x, const Grid<Dim>& grid, const IndexVector<Dim>& first_node, const HalfSize<Dim>& half_size) {
     using T = Tile<Dim, Shape>;
+    layer = 0;
     Pack N[Dim][Shape::width], dN[Dim][Shape::width];
     Pack index = splat(0.);
     double stride = 1;

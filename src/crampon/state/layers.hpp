@@ -1,6 +1,6 @@
 #pragma once
-/// Velocity fields. A layer is the set of particle-node pairs whose connecting lines cross the same cracks (DESIGN section 2):
-/// {} is N13's field [0], {a} its [1], {b} its [2], {a, b} its [3]; three and more cracks at a node are no special case.
+/// Velocity fields. A layer is the set of particle-node pairs of one material field whose connecting lines cross the same cracks
+/// (DESIGN section 2): {} is N13's field [0], {a} its [1], {b} its [2], {a, b} its [3]; three and more cracks at a node are no special case.
 
 #include <algorithm>
 #include <array>
@@ -46,8 +46,15 @@ class Signature {
   auto operator<=>(const Signature& b) const = default;
 
  private:
-  std::uint32_t size_ = 0;  // first: shorter signatures sort first, {} is always layer 0
+  std::uint32_t size_ = 0;  // first: shorter signatures sort first, {} before all
   std::array<CrackId, capacity> cracks_{};
+};
+
+/// A velocity field of a block: one material field (N13 sec. 1.2) on one side of the cracks.
+struct Layer {
+  std::uint16_t field = 0;  ///< material field
+  Signature cracks;
+  auto operator<=>(const Layer& b) const = default;
 };
 
 /// Where the pair (particle, node) of a particle near a crack or a symmetry plane goes.

@@ -30,9 +30,10 @@ struct CrossingSums {
 /// The layers of one block, as a tile sees them and as the block's own nodes see them.
 template <int Dim>
 struct BlockLayers {
-  std::vector<Signature> tile{Signature{}};       ///< layers in which the block's particles take part; layer 0 is {}
-  std::vector<TileBox<Dim>> tile_box;             ///< box touched by tile layers 1.. (entry l - 1)
-  std::vector<Signature> node{Signature{}};       ///< layers present at the block's own nodes
+  std::vector<Layer> tile{Layer{}};               ///< layers in which the block's particles take part, ascending
+  std::vector<TileBox<Dim>> tile_box{{}};         ///< box touched by each tile layer that is beyond a crack
+  std::vector<std::uint8_t> run_layer;            ///< per run of the block: layer of pairs that cross nothing; empty: 0
+  std::vector<Layer> node{Layer{}};               ///< layers present at the block's own nodes, ascending
   std::vector<CrackId> tile_cracks, node_cracks;  ///< cracks crossed by pairs of the tile / at own nodes
   std::vector<PairTarget> targets;                ///< [special pack][lane][stencil node]
   std::vector<std::int32_t> special;              ///< per pack of the block: index of its targets, or -1; empty: none special

@@ -177,7 +177,7 @@ class NodeFinder {
     sums_.clear();
     const BlockLayers<Dim>& layers = state_.nodes.layers[b_];
     for (const int l : fields_) {
-      const Signature reduced = without_joined(layers.node[static_cast<std::size_t>(l)], model_);
+      const Signature reduced = without_joined(layers.node[static_cast<std::size_t>(l)].cracks, model_);
       std::size_t g = 0;
       while (g < sums_.size() && sums_[g].signature != reduced) ++g;
       if (g == sums_.size()) {

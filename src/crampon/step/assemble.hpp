@@ -61,9 +61,9 @@ TileBox<Dim> whole_tile() {
 }
 
 template <int Dim>
-int layer_of(const std::vector<Signature>& layers, const Signature& signature) {
+int layer_of(const std::vector<Layer>& layers, const Layer& layer) {
   for (std::size_t l = 0; l < layers.size(); ++l) {
-    if (layers[l] == signature) return static_cast<int>(l);
+    if (layers[l] == layer) return static_cast<int>(l);
   }
   return -1;
 }
@@ -71,7 +71,9 @@ int layer_of(const std::vector<Signature>& layers, const Signature& signature) {
 /// The box of a tile layer that particles touch.
 template <int Dim>
 const TileBox<Dim>& touched_box(const State<Dim>& state, std::size_t block, int layer) {
-  return layer == 0 ? state.blocks.list[block].touched : state.nodes.layers[block].tile_box[static_cast<std::size_t>(layer) - 1];
+  const BlockLayers<Dim>& layers = state.nodes.layers[block];
+  const auto l = static_cast<std::size_t>(layer);
+  return layers.tile[l].cracks.empty() ? state.blocks.list[block].touched : layers.tile_box[l];
 }
 
 /// Clears the touched box of a tile.
@@ -98,7 +100,7 @@ inline void add_record(Record& a, const Record& b) {
 
 /// Sum of all tiles over the own nodes of a block, for one layer. `out` has block_nodes records.
 template <int Dim, class Shape, class Record>
-void assemble_layer(const State<Dim>& state, std::size_t block, const Signature& signature, const AlignedArray<Record>& tiles, Record* out,
+void assemble_layer(const State<Dim>& state, std::size_t block, const Layer& wanted, const AlignedArray<Record>& tiles, Record* out,
                     bool contact_only = false) {
   std::memset(static_cast<void*>(out), 0, sizeof(Record) * block_nodes<Dim>);
   const Block<Dim>& own = state.blocks.list[block];
@@ -107,7 +109,7 @@ void assemble_layer(const State<Dim>& state, std::size_t block, const Signature&
     if (c == no_block || !state.blocks.list[c].has_particles()) continue;
     const BlockLayers<Dim>& layers = state.nodes.layers[c];
     if (contact_only && !layers.sums_contact) continue;
-    const int layer = signature.empty() ? 0 : layer_of<Dim>(layers.tile, signature);
+    const int layer = layer_of<Dim>(layers.tile, wanted);
     if (layer < 0) continue;
     const Overlap<Dim, Shape> overlap(neighbour_step<Dim>(o), touched_box(state, c, layer));
     if (overlap.empty) continue;
@@ -131,7 +133,7 @@ void gather_layer(const State<Dim>& state, std::size_t block, int layer, const A
     for (int k = 0; k < Dim; ++k) step[k] = -step[k];  // seen from the node's block, the tile is its neighbour on the other side
     const Overlap<Dim, Shape> overlap(step, box);
     if (overlap.empty) continue;
-    const int there = layer == 0 ? 0 : layer_of<Dim>(state.nodes.layers[c].node, layers.tile[static_cast<std::size_t>(layer)]);
+    const int there = layer_of<Dim>(state.nodes.layers[c].node, layers.tile[static_cast<std::size_t>(layer)]);
     const Record* source = &nodes[(std::size_t{state.nodes.layers[c].node_begin} + there) * block_nodes<Dim>];
     overlap.rows([&](int local, int t, int count) { std::memcpy(static_cast<void*>(tile + t), source + local, sizeof(Record) * count); });
   }

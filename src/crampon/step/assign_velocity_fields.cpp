@@ -66,8 +66,23 @@ class BlockAssignment {
     return false;
   }
 
+  /// Layers of pairs that cross nothing: one for each material field of the block.
+  void begin() {
+    if (!block_.has_particles()) return;
+    layers_.tile.clear();
+    layers_.tile_box.clear();
+    for (std::uint32_t r = block_.first_run; r < block_.end_run; ++r) {
+      layers_.run_layer.push_back(
+          static_cast<std::uint8_t>(layer_number({model_.materials[state_.blocks.runs[r].material].field, Signature{}})));
+    }
+  }
   /// False when a line crosses too many cracks or the block has too many layers.
-  bool run() {
+  bool finish() {
+    sort_layers();
+    return fits_;
+  }
+
+  void run() {
     const auto first = block_.first_node();
     const std::uint32_t first_pack = state_.blocks.runs[block_.first_run].first_pack;
     const std::uint32_t end_pack = state_.blocks.runs[block_.end_run - 1].end_pack;
@@ -84,11 +99,11 @@ class BlockAssignment {
       if (!special) continue;
       stencil.compute(x, model_.grid, first, model_.materials[run->material].half_size);
       layers_.special[k - first_pack] = count++;
+      field_ = model_.materials[run->material].field;
+      own_layer_ = layers_.run_layer[static_cast<std::size_t>(run - &state_.blocks.runs[block_.first_run])];
       for (int l = 0; l < lanes; ++l) assign(stencil, x, l, state_.particles.is_padding(std::size_t{k} * lanes + l));
     }
     if (count == 0) layers_.special.clear();
-    sort_layers();
-    return fits_;
   }
 
  private:
@@ -124,7 +139,7 @@ class BlockAssignment {
       auto node = unflatten<Dim>(n, Shape::width);
       for (int k = 0; k < Dim; ++k) node[k] += lowest[k] + first[k] - T::offset;
       x_i[n] = model_.grid.node_position(node);
-      target[n] = {static_cast<std::uint16_t>(stencil.base[l] + T::steps[n]), 0, 0};
+      target[n] = {static_cast<std::uint16_t>(stencil.base[l] + T::steps[n]), own_layer_, 0};
       fold(x_p, node, x_i[n], target[n]);
     }
     if constexpr (Dim == 2) {
@@ -132,9 +147,9 @@ class BlockAssignment {
     }
     for (int n = 0; n < T::stencil; ++n) {
       if (!signature[n].empty()) {
-        const int layer = layer_number(signature[n]);
+        const int layer = layer_number({field_, signature[n]});
         target[n].layer = static_cast<std::uint8_t>(layer);
-        layers_.tile_box[static_cast<std::size_t>(layer) - 1].include(unflatten<Dim>(target[n].node, T::side));
+        layers_.tile_box[static_cast<std::size_t>(layer)].include(unflatten<Dim>(target[n].node, T::side));
       }
       layers_.targets.push_back(target[n]);
     }
@@ -185,34 +200,35 @@ class BlockAssignment {
     sum.r[1] += Pack{crossing.original_sum[0], crossing.original_sum[1], 0., 0.};
   }
 
-  int layer_number(const Signature& s) {
-    const int found = layer_of<Dim>(layers_.tile, s);
+  int layer_number(const Layer& layer) {
+    const int found = layer_of<Dim>(layers_.tile, layer);
     if (found >= 0) return found;
     if (layers_.tile.size() == 255) {
       fits_ = false;
-      return 1;
+      return 0;
     }
-    layers_.tile.push_back(s);
+    layers_.tile.push_back(layer);
     layers_.tile_box.emplace_back();
     return static_cast<int>(layers_.tile.size()) - 1;
   }
 
-  /// Layers in the order of their signatures, cracks in the order of their ids: no trace of the order of discovery.
+  /// Layers in the order of their fields and signatures, cracks in the order of their ids: no trace of the order of discovery.
   void sort_layers() {
     std::vector<std::size_t> order(layers_.tile.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return layers_.tile[a] < layers_.tile[b]; });
-    std::vector<Signature> tile;
+    std::vector<Layer> tile;
     std::vector<TileBox<Dim>> boxes;
     std::vector<std::uint8_t> rank(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
       rank[order[i]] = static_cast<std::uint8_t>(i);
       tile.push_back(layers_.tile[order[i]]);
-      if (i > 0) boxes.push_back(layers_.tile_box[order[i] - 1]);
+      boxes.push_back(layers_.tile_box[order[i]]);
     }
     layers_.tile = std::move(tile);
     layers_.tile_box = std::move(boxes);
     for (PairTarget& t : layers_.targets) t.layer = rank[t.layer];
+    for (std::uint8_t& l : layers_.run_layer) l = rank[l];
 
     std::vector<std::size_t> by_id(cracks_.size());
     for (std::size_t i = 0; i < by_id.size(); ++i) by_id[i] = i;
@@ -231,6 +247,8 @@ class BlockAssignment {
   std::vector<CrossingSums>& crossing_;
   std::vector<CrackId> cracks_;
   std::vector<std::vector<CrossingSums>> sums_;
+  std::uint16_t field_ = 0;     ///< of the particles at hand
+  std::uint8_t own_layer_ = 0;  ///< ... and the layer of their pairs that cross nothing
   bool fits_ = true;
 };
 
@@ -238,18 +256,20 @@ class BlockAssignment {
 template <int Dim, class Shape>
 void find_node_layers(State<Dim>& state, std::size_t b) {
   BlockLayers<Dim>& own = state.nodes.layers[b];
-  own.node.assign(1, Signature{});
+  own.node.clear();
   own.node_cracks.clear();
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t c = state.blocks.list[b].neighbours[o];
     if (c == no_block) continue;
     const BlockLayers<Dim>& there = state.nodes.layers[c];
-    for (std::size_t l = 1; l < there.tile.size(); ++l) {
-      if (Overlap<Dim, Shape>(neighbour_step<Dim>(o), there.tile_box[l - 1]).empty) continue;
+    if (!state.blocks.list[c].has_particles()) continue;
+    for (std::size_t l = 0; l < there.tile.size(); ++l) {
+      if (Overlap<Dim, Shape>(neighbour_step<Dim>(o), touched_box(state, c, static_cast<int>(l))).empty) continue;
       if (layer_of<Dim>(own.node, there.tile[l]) < 0) own.node.push_back(there.tile[l]);
     }
     own.node_cracks.insert(own.node_cracks.end(), there.tile_cracks.begin(), there.tile_cracks.end());
   }
+  if (own.node.empty()) own.node.push_back(Layer{});
   std::sort(own.node.begin(), own.node.end());
   std::sort(own.node_cracks.begin(), own.node_cracks.end());
   own.node_cracks.erase(std::unique(own.node_cracks.begin(), own.node_cracks.end()), own.node_cracks.end());
@@ -257,7 +277,7 @@ void find_node_layers(State<Dim>& state, std::size_t b) {
 
 /// Does a tile reach own nodes, of some block around it, that hold several layers?
 template <int Dim, class Shape>
-bool reaches_cracked_nodes(const State<Dim>& state, std::size_t b) {
+bool reaches_shared_nodes(const State<Dim>& state, std::size_t b) {
   const Block<Dim>& block = state.blocks.list[b];
   if (!block.has_particles()) return false;
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
@@ -272,8 +292,9 @@ bool reaches_cracked_nodes(const State<Dim>& state, std::size_t b) {
 
 template <int Dim>
 void reset_layers(BlockLayers<Dim>& layers) {
-  layers.tile.assign(1, Signature{});
-  layers.tile_box.clear();
+  layers.tile.assign(1, Layer{});
+  layers.tile_box.assign(1, {});
+  layers.run_layer.clear();
   layers.tile_cracks.clear();
   layers.targets.clear();
   layers.special.clear();
@@ -284,9 +305,10 @@ void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::
   Nodes<Dim>& nodes = state.nodes;
   const std::size_t blocks = state.blocks.size();
   const bool cracked = !state.cracks.empty();
-  if (cracked) {
+  const bool several = cracked || model.fields > 1;
+  if (several) {
     parallel_for(blocks, model.threads, [&](std::size_t b) { find_node_layers<Dim, Shape>(state, b); });
-    parallel_for(blocks, model.threads, [&](std::size_t b) { nodes.layers[b].sums_contact = reaches_cracked_nodes<Dim, Shape>(state, b); });
+    parallel_for(blocks, model.threads, [&](std::size_t b) { nodes.layers[b].sums_contact = reaches_shared_nodes<Dim, Shape>(state, b); });
   }
   nodes.tile_slots = nodes.node_slots = nodes.crossing_tile_slots = nodes.crossing_node_slots = 0;
   for (BlockLayers<Dim>& l : nodes.layers) {
@@ -306,7 +328,7 @@ void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::
   nodes.force.resize_discarding(nodes.node_slots * block_nodes<Dim>);
   nodes.velocity.resize_discarding(nodes.node_slots * block_nodes<Dim>);
   nodes.motion.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  if (!cracked) return;
+  if (!several) return;
   nodes.tile_contact.resize_discarding(nodes.tile_slots * T::nodes);
   nodes.contact.resize_discarding(nodes.node_slots * block_nodes<Dim>);
   nodes.tile_crossing.resize_discarding(nodes.crossing_tile_slots * T::nodes);
@@ -326,12 +348,14 @@ void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model) {
   }
   std::vector<std::vector<CrossingSums>> crossing(state.blocks.size());
   std::atomic<bool> fits{true};
-  if (!state.cracks.empty() || !model.symmetries.empty()) {
+  if (!state.cracks.empty() || !model.symmetries.empty() || model.fields > 1) {
     parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) {
       BlockLayers<Dim>& layers = state.nodes.layers[b];
       reset_layers(layers);
       BlockAssignment<Dim, Shape> assignment(state, model, view, b, layers, crossing[b]);
-      if (assignment.needed() && !assignment.run()) fits = false;
+      assignment.begin();
+      if (assignment.needed()) assignment.run();
+      if (!assignment.finish()) fits = false;
     });
   }
   if (!fits) {

@@ -23,6 +23,7 @@ struct Material {
   std::shared_ptr<const MaterialLaw> law;
   double thickness = 1;       ///< m, 2D
   HalfSize<Dim> half_size{};  ///< of a particle, in cells (uGIMP)
+  std::uint16_t field = 0;    ///< material field (N13 sec. 1.2)
 };
 
 /// Velocity prescribed on nodes, or a symmetry plane.
@@ -53,6 +54,7 @@ struct Model {
   Grid<Dim> grid;
   StressState stress_state = StressState::plane_strain;
   std::vector<Material<Dim>> materials;
+  int fields = 1;  ///< material velocity fields (N13 sec. 1.2)
   std::vector<std::string> bodies;
   std::vector<ContactLawSpec> crack_laws;  ///< per crack
   std::vector<VelocityCondition<Dim>> conditions;

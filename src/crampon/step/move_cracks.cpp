@@ -136,13 +136,13 @@ std::optional<Vec<2>> surface_velocity(const State<2>& state, const Model<2>& mo
       }
     }
     const BlockLayers<2>& layers = state.nodes.layers[node.block];
+    Pack p = splat(0.);  // of all materials on that side (N13 sec. 2.9)
     for (std::size_t l = 0; l < layers.node.size() && fits; ++l) {
-      if (layers.node[l] != signature) continue;
-      const Pack p = state.nodes.momentum[(layers.node_begin + l) * block_nodes<2> + node.local];
-      if (!(p[2] > 0)) continue;
-      for (int k = 0; k < 2; ++k) sum[k] += node.S * p[k] / p[2];
-      weight += node.S;
+      if (layers.node[l].cracks == signature) p += state.nodes.momentum[(layers.node_begin + l) * block_nodes<2> + node.local];
     }
+    if (!(p[2] > 0)) continue;
+    for (int k = 0; k < 2; ++k) sum[k] += node.S * p[k] / p[2];
+    weight += node.S;
   }
   if (!(weight > 0)) return std::nullopt;
   return sum * (1 / weight);

@@ -64,7 +64,7 @@ void find_velocities(State<Dim>& state, std::size_t b) {
 template <int Dim, class Shape>
 void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
   assemble_momentum<Dim, Shape>(state, b);
-  if (!state.cracks.empty()) {
+  if (!state.cracks.empty() || model.fields > 1) {
     assemble_contact_sums<Dim, Shape>(state, b);
     find_contacts(state, model, b);
   }

@@ -7,7 +7,7 @@
 
 namespace crampon {
 
-/// f(pack, stencil, targets, run): targets is null for packs whose pairs all go to their own node in layer 0, else
+/// f(pack, stencil, targets, run): targets is null for packs whose pairs all go to their own node in the stencil's layer, else
 /// [lane][stencil node] says where each pair goes.
 template <int Dim, class Shape, class F>
 void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
@@ -19,10 +19,12 @@ void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, 
   for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
     const Run& run = state.blocks.runs[r];
     const HalfSize<Dim>& half_size = model.materials[run.material].half_size;
+    const int layer = layers.run_layer.empty() ? 0 : layers.run_layer[r - block.first_run];
     for (std::uint32_t k = run.first_pack; k < run.end_pack; ++k) {
       Pack x[Dim];
       state.particles.pack_positions(k, x);
       stencil.compute(x, model.grid, first_node, half_size);
+      if (layer > 0) stencil.move_to_layer(layer);
       const std::int32_t special = layers.special.empty() ? -1 : layers.special[k - first_pack];
       const PairTarget* targets =
           special < 0 ? nullptr : &layers.targets[static_cast<std::size_t>(special) * lanes * Stencil<Dim, Shape>::count];
@@ -44,6 +46,8 @@ void for_loaded(const State<Dim>& state, const Model<Dim>& model, std::size_t b,
     Pack x[Dim];
     state.particles.pack_positions(pack, x);
     stencil.compute(x, model.grid, block.first_node(), model.materials[run->material].half_size);
+    if (!layers.run_layer.empty())
+      stencil.move_to_layer(layers.run_layer[static_cast<std::size_t>(run - &state.blocks.runs[block.first_run])]);
     const std::int32_t special = layers.special.empty() ? -1 : layers.special[pack - state.blocks.runs[block.first_run].first_pack];
     const PairTarget* targets =
         special < 0 ? nullptr : &layers.targets[static_cast<std::size_t>(special) * lanes * Stencil<Dim, Shape>::count];

@@ -42,10 +42,11 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
           const double m_p = particles.mass(p);
           if (m_p == 0) continue;
           const Vec<Dim> x_p = particles.position(p), X_p = particles.original[p];
-          const auto lowest = unflatten<Dim>(stencil.base[l], T::side);
+          const auto lowest = unflatten<Dim>(stencil.lowest(l), T::side);
           for (int n = 0; n < T::stencil; ++n) {
-            const PairTarget t =
-                targets ? targets[l * T::stencil + n] : PairTarget{static_cast<std::uint16_t>(stencil.base[l] + T::steps[n]), 0, 0};
+            const PairTarget t = targets ? targets[l * T::stencil + n]
+                                         : PairTarget{static_cast<std::uint16_t>(stencil.lowest(l) + T::steps[n]),
+                                                      static_cast<std::uint8_t>(stencil.layer), 0};
             const auto step = unflatten<Dim>(n, Shape::width);
             Pack now = splat(0.), start = splat(0.);
             now[0] = volume[l];
