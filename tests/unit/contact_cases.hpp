@@ -44,7 +44,8 @@ struct Node {
   std::vector<ContactLawSpec> laws;  ///< by crack
 
   bool solve(const ContactRules& rules) {
-    return solve_contact<Dim>(rules, laws, groups.data(), static_cast<int>(groups.size()), pairs.data(), static_cast<int>(pairs.size()));
+    for (auto& pair : pairs) pair.law = &laws[pair.name.crack];
+    return solve_contact<Dim>(rules, groups.data(), static_cast<int>(groups.size()), pairs.data(), static_cast<int>(pairs.size()));
   }
   Vec<Dim> velocity_before(int g) const { return groups[static_cast<std::size_t>(g)].p * (1 / groups[static_cast<std::size_t>(g)].m); }
   Vec<Dim> velocity_after(int g) const {
@@ -52,12 +53,15 @@ struct Node {
     return (group.p + group.dp) * (1 / group.m);
   }
   /// Of b against a.
-  Vec<Dim> before(const ContactPair<Dim>& q) const { return velocity_before(q.b) - velocity_before(q.a); }
-  Vec<Dim> after(const ContactPair<Dim>& q) const { return velocity_after(q.b) - velocity_after(q.a); }
+  Vec<Dim> before(const ContactPair<Dim>& q) const { return velocity_before(group(q.b)) - velocity_before(group(q.a)); }
+  Vec<Dim> after(const ContactPair<Dim>& q) const { return velocity_after(group(q.b)) - velocity_after(group(q.a)); }
   double reduced_mass(const ContactPair<Dim>& q) const {
-    const double a = groups[static_cast<std::size_t>(q.a)].m, b = groups[static_cast<std::size_t>(q.b)].m;
+    const double a = groups[static_cast<std::size_t>(group(q.a))].m, b = groups[static_cast<std::size_t>(group(q.b))].m;
     return a * b / (a + b);
   }
+  /// The one group of a side.
+  static int group(GroupSet side) { return std::countr_zero(side); }
+  ContactGroup<Dim>& on(GroupSet side) { return groups[static_cast<std::size_t>(group(side))]; }
   /// Largest momentum about, against which round-off is measured.
   double momentum() const {
     double largest = 0;
@@ -86,8 +90,10 @@ Node<Dim> random_pair(Random& random, const ContactLawSpec& law) {
     node.groups.push_back(group);
   }
   ContactPair<Dim> pair;
-  pair.a = random.pick(2);
-  pair.b = 1 - pair.a;
+  const int a = random.pick(2);
+  pair.a = only(a);
+  pair.b = only(1 - a);
+  pair.name.crack = 0;
   pair.n = random.direction<Dim>();
   pair.gap = -h;  // touching whenever the faces approach
   node.pairs = {pair};

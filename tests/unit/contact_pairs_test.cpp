@@ -41,8 +41,8 @@ Node<Dim> random_node(Random& random, const ContactLawSpec& law, int pairs) {
   }
   const auto add = [&](int a, int b, int crack) {
     ContactPair<Dim> pair;
-    pair.a = a, pair.b = b;
-    pair.crack = static_cast<CrackId>(crack);
+    pair.a = only(a), pair.b = only(b);
+    pair.name.crack = static_cast<CrackId>(crack);
     pair.n = n[static_cast<std::size_t>(crack)];
     pair.gap = random.draw(-1, 1) * dt;
     node.pairs.push_back(pair);
@@ -176,8 +176,8 @@ TYPED_TEST(ContactPairs, ASolutionOfPlainSweepsIsKept) {
           const double stick = m * norm(slip), most = -friction * m * w_n;
           next = pair.n * (-m * w_n) - slip * (stick > most ? most / norm(slip) : m);
         }
-        swept.groups[static_cast<std::size_t>(pair.a)].dp -= next - J[q];
-        swept.groups[static_cast<std::size_t>(pair.b)].dp += next - J[q];
+        swept.on(pair.a).dp -= next - J[q];
+        swept.on(pair.b).dp += next - J[q];
         change = std::fmax(change, norm(next - J[q]));
         J[q] = next;
       }
@@ -205,8 +205,8 @@ TYPED_TEST(ContactPairs, LightFieldBetweenHeavyOnes) {
       node.groups[0].p[0] = 1, node.groups[2].p[0] = -0.5;
       for (int q = 0; q < 2; ++q) {
         ContactPair<Dim>& pair = node.pairs[static_cast<std::size_t>(q)];
-        pair.a = q, pair.b = q + 1;
-        pair.crack = static_cast<CrackId>(q);
+        pair.a = only(q), pair.b = only(q + 1);
+        pair.name.crack = static_cast<CrackId>(q);
         pair.n[0] = 1;
         pair.gap = -h;
       }
@@ -231,7 +231,7 @@ TYPED_TEST(ContactPairs, SequentialPairsAreDoneOnce) {
     rules.sequential = true;
     ASSERT_TRUE(node.solve(rules));
     for (auto& pair : plain.pairs) {
-      auto &a = plain.groups[static_cast<std::size_t>(pair.a)], &b = plain.groups[static_cast<std::size_t>(pair.b)];
+      auto &a = plain.on(pair.a), &b = plain.on(pair.b);
       const Vec<Dim> w = b.p * (1 / b.m) - a.p * (1 / a.m);
       if (dot(w, pair.n) >= 0) continue;
       const Vec<Dim> common = (a.p + b.p) * (1 / (a.m + b.m));

@@ -23,8 +23,8 @@ TYPED_TEST(ContactSolve, FrictionCone) {
     const Vec<Dim> w = node.before(pair);
     const double m = node.reduced_mass(pair), scale = node.momentum();
     ASSERT_TRUE(node.solve(literal_rules()));
-    const Vec<Dim> on_b = node.groups[static_cast<std::size_t>(pair.b)].dp;
-    ASSERT_EQ(node.groups[static_cast<std::size_t>(pair.a)].dp, -on_b);  // momentum, to the bit
+    const Vec<Dim> on_b = node.on(pair.b).dp;
+    ASSERT_EQ(node.on(pair.a).dp, -on_b);  // momentum, to the bit
     ASSERT_EQ(node.pairs[0].J, on_b);
     if (dot(w, pair.n) >= 0) {
       ASSERT_EQ(on_b, Vec<Dim>{});
@@ -89,13 +89,13 @@ TYPED_TEST(ContactSolve, NoNormalMotionNoImpulse) {
       node.laws = {law};
       node.groups[0].m = 1, node.groups[1].m = 2;
       node.groups[0].p[0] = 1, node.groups[1].p[0] = -4;  // sliding along x alone: CONVENTIONS 7
-      node.pairs[0].a = 0, node.pairs[0].b = 1;
+      node.pairs[0].a = only(0), node.pairs[0].b = only(1);
       node.pairs[0].n[1] = 1;
       node.pairs[0].gap = -h;
       node.pairs[0].volume_ratio = 1.3;
       for (const bool require_approach : {true, false}) {
         ContactRules rules = literal_rules();
-        rules.by_volume = by_volume;
+        rules.volume_for_cracks = rules.volume_for_materials = by_volume;
         rules.require_approach = require_approach;
         node.solve(rules);
         EXPECT_EQ(node.groups[0].dp, Vec<Dim>{});
@@ -112,7 +112,7 @@ TYPED_TEST(ContactSolve, VolumeRule) {
   int held_back = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     ContactRules rules = literal_rules();
-    rules.by_volume = true;
+    rules.volume_for_cracks = rules.volume_for_materials = true;
     rules.volume_separated = random.draw(0.7, 1);
     rules.volume_contact = rules.volume_separated + random.draw(0, 0.4);
     rules.require_approach = random.pick(2) == 0;
@@ -256,8 +256,8 @@ TYPED_TEST(ContactSolve, ConsistentSchemeOfOnePair) {
       const double scale = node.momentum();
       ASSERT_LT(norm(pair.J - expected), round_off * scale)
           << "task " << static_cast<int>(task) << ", previous " << static_cast<int>(pair.previous);
-      ASSERT_EQ(node.groups[static_cast<std::size_t>(pair.b)].dp, pair.J);
-      ASSERT_EQ(node.groups[static_cast<std::size_t>(pair.a)].dp, -pair.J);
+      ASSERT_EQ(node.on(pair.b).dp, pair.J);
+      ASSERT_EQ(node.on(pair.a).dp, -pair.J);
       if (task == ContactTask::four) {
         ASSERT_EQ(pair.state, plain.state);
         ASSERT_NEAR(pair.w_end, plain.w_end, round_off * node.speed());
@@ -289,8 +289,8 @@ TYPED_TEST(ContactSolve, FixedComponentsStayAsTheyAre) {
     for (int k = 0; k < Dim; ++k) {
       const double expected = rules.fixed_axes >> k & 1u ? 0. : free.pairs[0].J[k];
       ASSERT_EQ(node.pairs[0].J[k], expected);
-      ASSERT_EQ(node.groups[static_cast<std::size_t>(node.pairs[0].b)].dp[k], expected);
-      ASSERT_EQ(node.groups[static_cast<std::size_t>(node.pairs[0].a)].dp[k], -expected);
+      ASSERT_EQ(node.on(node.pairs[0].b).dp[k], expected);
+      ASSERT_EQ(node.on(node.pairs[0].a).dp[k], -expected);
     }
   }
 }

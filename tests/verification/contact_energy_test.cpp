@@ -81,7 +81,7 @@ struct Outcome {
   double highest = 1, lowest = 1, end = 1;   ///< energy over that at the start
   double momentum_change = 0, momentum = 0;  ///< kg m/s; the sum of all particles' magnitudes
   double deepest = 0, widest = 0;            ///< opening, m
-  double contact_loss = 0, closure = 0;      ///< over the energy at the start
+  double contact_loss = 0, closure = 0;      ///< over the energy at the start; the loss with that by friction
 };
 
 Outcome collide(const ImpactCase& c, const char* scheme) {
@@ -103,7 +103,7 @@ Outcome collide(const ImpactCase& c, const char* scheme) {
       o.widest = std::fmax(o.widest, value(s, fmt::format("opening_max.crack{}", k)));
     }
   });
-  o.contact_loss = value(*simulation, "contact_loss") / energy;
+  o.contact_loss = (value(*simulation, "contact_loss") + value(*simulation, "friction_loss")) / energy;
   o.closure = value(*simulation, "energy_closure") / energy;
   return o;
 }

@@ -12,12 +12,22 @@ namespace crampon {
 
 enum class ContactState : std::uint8_t { open, slip, stick };
 
-/// A contact, named by what does not change when a crack drifts across the node: the node, the crack and the other cracks that
-/// separate the pair from the node.
+/// A contact at a node, named by what does not change when a crack drifts across the node. Faces of a crack: the crack and the other
+/// cracks that separate both from the node. Two materials: their fields and the cracks that separate both from the node.
+struct ContactName {
+  static constexpr CrackId no_crack = 0xffffffffu;
+  static constexpr std::uint16_t all_others = 0xffff;  ///< the virtual material of N13 Eq. 8
+
+  CrackId crack = no_crack;
+  std::uint16_t field_a = 0, field_b = 0;  ///< material fields; 0 for faces of a crack
+  Signature others;
+  bool between_materials() const { return crack == no_crack; }
+  auto operator<=>(const ContactName&) const = default;
+};
+
 struct ContactKey {
   std::int64_t node = 0;
-  CrackId crack = 0;
-  Signature others;
+  ContactName name;
   auto operator<=>(const ContactKey&) const = default;
 };
 

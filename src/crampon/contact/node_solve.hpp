@@ -1,7 +1,8 @@
 #pragma once
-/// Contact at one node: its velocity fields, joined where bonded, and the pairs of them that face each other across a crack.
-/// contact.md section 3 for the impulses, contact-consistency.md for when they act.
+/// Contact at one node: its velocity fields, joined where bonded, and the pairs of them that face each other across a crack or as
+/// different materials. docs/theory/contact.md for the impulses and for when they act.
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -15,36 +16,58 @@ namespace crampon {
 /// One velocity field of a node.
 struct ContactField {
   int layer = 0;  ///< of the node's block
-  int group = 0;  ///< among the node's groups: fields joined by bonded cracks share one velocity (CONVENTIONS 13, 14)
+  int group = 0;  ///< among the node's groups: fields joined by bonded cracks or materials share one velocity (CONVENTIONS 13, 14)
 };
 
-/// Fields that share a velocity. m in kg, p in kg m/s.
+/// Fields that share a velocity.
 template <int Dim>
 struct ContactGroup {
-  double m = 0;
-  Vec<Dim> p;
-  Vec<Dim> dp;  ///< impulse of the present task
+  double m = 0;        ///< kg; of a rigid body anything above zero
+  Vec<Dim> p;          ///< kg m/s
+  Vec<Dim> dp;         ///< impulse of the present task, kg m/s
+  bool rigid = false;  ///< moves at p/m whatever befalls it (N13 Eqs. 13-16); dp is what the others give to it
+  int body = -1;       ///< rigid: which body
+  bool wall = false;   ///< ... which has no field at the node
+
+  /// For the energy that contact takes (energy_taken in step/adjust_contact.cpp).
+  Vec<Dim> v_start;    ///< before Task 2, m/s
+  Vec<Dim> v_settled;  ///< after it
+  Vec<Dim> gain;       ///< what the forces of Task 3 added to it, m/s
+  Vec<Dim> dp2, dp4;   ///< impulses of Tasks 2 and 4, kg m/s
+
+  Vec<Dim> velocity() const { return rigid ? p * (1 / m) : (p + dp) * (1 / m); }
 };
 
-/// Two groups that face each other across one crack; n points from a (above) to b (below).
+/// Some groups of a node, one bit each.
+using GroupSet = std::uint64_t;
+inline constexpr int most_groups = 64;
+inline constexpr GroupSet only(int group) { return GroupSet{1} << group; }
+
+/// f(index of a group) for every group of a set.
+template <class F>
+void for_groups(GroupSet set, F f) {
+  for (; set != 0; set &= set - 1) f(std::countr_zero(set));
+}
+
+/// Two sides that face each other across one crack or as different materials; n points from a to b, across a crack from above to below.
+/// A side of several groups (all materials on one side of a crack; N13's virtual material) meets the other with its common velocity and
+/// shares impulses by mass.
 template <int Dim>
 struct ContactPair {
-  int a = 0, b = 0;
-  CrackId crack = 0;
-  Signature others;  ///< the other cracks that separate the pair from the node
+  GroupSet a = 0, b = 0;
+  ContactName name;
+  const ContactLawSpec* law = nullptr;
   Vec<Dim> n;
-  double gap = 0;                              ///< m, at the start of the step: negative when the faces overlap (contact.md 2.2)
+  double gap = 0;                              ///< m, at the start of the step: negative when they overlap
   double volume_ratio = 0;                     ///< V_rel of N03 Eq. 10
+  double area = 0;                             ///< A, m2, where the law asks for it
+  double slip = 0;                             ///< distance slipped so far, m, where the law asks for it
   ContactState previous = ContactState::open;  ///< Task-4 state of the last step
   ContactState state = ContactState::open;     ///< Task-4 state of this step
   double w_end = 0;                            ///< normal relative velocity right after the impulse of Task 4, m/s
   Vec<Dim> J;                                  ///< impulse on b in the present task, kg m/s
 
-  // For the energy that contact takes (BlockLedger::contact_loss).
-  Vec<Dim> w_start;    ///< relative velocity before Task 2, m/s
-  Vec<Dim> w_settled;  ///< ... after it
-  Vec<Dim> gain;       ///< what the forces of Task 3 added to it
-  Vec<Dim> J2, J4;     ///< impulses of Tasks 2 and 4, kg m/s
+  bool is_virtual() const { return name.field_b == ContactName::all_others; }
 };
 
 template <int Dim>
@@ -81,18 +104,48 @@ struct ContactRules {
   ContactTask task = ContactTask::two;
   double dt = 0;  ///< s
   bool literal = false;
-  bool by_volume = false;
+  bool volume_for_cracks = false, volume_for_materials = false;  ///< literal: detection by relative volume (N03 section 2.2)
   double volume_separated = 0.9, volume_contact = 1.1;
   bool require_approach = true;
   bool sequential = false;
   unsigned fixed_axes = 0;  ///< bit k: component k of the node is prescribed and not changed (N13 sec. 2.5)
+
+  bool by_volume(const ContactName& name) const { return name.between_materials() ? volume_for_materials : volume_for_cracks; }
 };
+
+/// A side of a pair as it moves now.
+template <int Dim>
+struct PairSide {
+  double m = 0;  ///< kg
+  Vec<Dim> v;    ///< m/s
+  bool rigid = false;
+};
+template <int Dim>
+PairSide<Dim> side_of(const ContactGroup<Dim>* groups, GroupSet set) {
+  if (std::has_single_bit(set)) {
+    const ContactGroup<Dim>& g = groups[std::countr_zero(set)];
+    return {g.m, g.velocity(), g.rigid};
+  }
+  PairSide<Dim> side;
+  for_groups(set, [&](int i) {
+    side.m += groups[i].m;
+    side.v += groups[i].p + groups[i].dp;
+  });
+  side.v *= 1 / side.m;
+  return side;
+}
+
+/// m_red of two sides (N13 Eqs. 6, 16), kg.
+template <int Dim>
+double reduced_mass(const PairSide<Dim>& a, const PairSide<Dim>& b) {
+  return a.rigid ? b.m : b.rigid ? a.m : a.m * b.m / (a.m + b.m);
+}
 
 /// Solves all pairs of one node: sets dp of every group (sum zero, kg m/s) and J, state and w_end of every pair. One pair, or pairs in
 /// sequence, are done in one go; several together by sweeps over accumulated impulses until nothing changes by more than 1e-14 of the
-/// momenta about (docs/decisions/0006-joint-contact.md). Returns false when that was not reached. CONVENTIONS 13.
+/// momenta about (docs/decisions/0006-joint-contact.md). Pairs with N13's virtual material are done first and once, all from the same
+/// momenta (CONVENTIONS 35). Returns false when convergence was not reached. CONVENTIONS 13.
 template <int Dim>
-bool solve_contact(const ContactRules& rules, const std::vector<ContactLawSpec>& laws, ContactGroup<Dim>* groups, int group_count,
-                   ContactPair<Dim>* pairs, int pair_count);
+bool solve_contact(const ContactRules& rules, ContactGroup<Dim>* groups, int group_count, ContactPair<Dim>* pairs, int pair_count);
 
 }  // namespace crampon

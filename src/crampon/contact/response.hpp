@@ -1,10 +1,9 @@
 #pragma once
-/// What a pair of fields in contact does when all others at its node are held (contact.md section 3).
+/// What a pair of fields in contact does when all others at its node are held (docs/theory/contact.md, impulses).
 
 #include <cmath>
-#include <variant>
 
-#include "crampon/contact/law.hpp"
+#include "crampon/contact/friction.hpp"
 #include "crampon/core/vector.hpp"
 
 namespace crampon {
@@ -19,7 +18,7 @@ Vec<Dim> without_axes(Vec<Dim> v, unsigned axes) {
 }
 
 /// The impulse of one pair and the conditions from which it came: the normal part brings w_n to `target`, the tangential part stops all
-/// slip or rubs in proportion to the normal part.
+/// slip or rubs.
 template <int Dim>
 struct Response {
   Vec<Dim> J;         ///< impulse on b, kg m/s
@@ -27,6 +26,7 @@ struct Response {
   bool pushes = false, sticks = false;
   double target = 0;  ///< normal relative velocity that it leaves, m/s, when it pushes
   Vec<Dim> along;     ///< impulse on b per unit of its normal part, when it pushes: n and the friction that goes with it
+  Vec<Dim> aside;     ///< the friction that does not go with it, kg m/s
 
   /// Brings w_n to `to`; m is the reduced mass.
   void push(const Vec<Dim>& n, double m, double w_n, double to) {
@@ -41,15 +41,21 @@ struct Response {
     sticks = true;
     J -= D_t;
   }
-  /// The law's share of the tangential impulse (contact.md 3, 4).
-  void rub(const ContactLawSpec& law, const Vec<Dim>& D_t) {
-    const auto* coulomb = std::get_if<CoulombContact>(&law);
-    if (!coulomb && !std::holds_alternative<StickContact>(law)) return;
-    const double full = norm(D_t);
-    if (!coulomb || coulomb->friction * std::fabs(normal) >= full) return stick(D_t);
-    const Vec<Dim> friction = D_t * (-std::copysign(coulomb->friction, normal) / full);
-    along += friction;
-    J += friction * normal;
+  /// The law's share of the tangential impulse; of `sliding` mass, dt, area and slip are given.
+  void rub(const ContactLawSpec& law, const Vec<Dim>& D_t, Sliding sliding) {
+    sliding.normal = std::fabs(normal);
+    sliding.full = norm(D_t);
+    const SlidingLimit limit = sliding_limit(law, sliding);
+    if (limit.sticks) return stick(D_t);
+    if (limit.per_normal > 0) {
+      const Vec<Dim> friction = D_t * (-std::copysign(limit.per_normal, normal) / sliding.full);
+      along += friction;
+      J += friction * normal;
+    }
+    if (limit.rest > 0) {
+      aside = D_t * (-limit.rest / sliding.full);
+      J += aside;
+    }
   }
 };
 

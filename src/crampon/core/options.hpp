@@ -16,11 +16,22 @@ enum class BoundaryOrder { contact_first, boundary_first };
 enum class FixedForce { incremental, n13, zero };
 enum class LeavingParticle { error, remove };
 
+/// Which bodies have a velocity field of their own (N13 sec. 1.2).
+enum class FieldsOf { all, materials, bodies };
+
 /// contact-consistency.md, or contact detected anew in Tasks 2, 4 and 6 as in the papers.
 enum class ContactScheme { consistent, literal };
+/// Contact across cracks.
 enum class ContactDetection { displacement, volume };
+/// Contact between materials: where their edges are by the means of their particles' positions or by the particles themselves, how far they
+/// have come since the start, or N03's relative volume.
+enum class MaterialDetection { position, regression, displacement, volume };
+/// The normal between two materials (docs/theory/contact.md, normals).
+enum class ContactNormal { logistic_regression, linear_regression, largest_gradient, average_gradient, more_volume };
 /// All pairs of a node solved together, or one after another (N13).
 enum class ContactPairs { joint, sequential };
+/// Three and more materials at a node: all pairs of them, or each against the virtual material of all others (N13 Eqs. 7-9).
+enum class SeveralMaterials { pairwise, virtual_material };
 enum class ReferenceVolume { cell, initial };
 
 }  // namespace crampon

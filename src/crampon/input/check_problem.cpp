@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -29,6 +30,12 @@ class ProblemChecker {
     if (!broken("grid")) check_grid();
     if (!broken("method")) check_length(problem_.method, "body_force", problem_.method.body_force.size());
     for (const BodyInput& body : problem_.bodies) check_body(body);
+    for (const RigidInput& rigid : problem_.rigids) check_rigid(rigid);
+    for (const WallInput& wall : problem_.walls) check_wall(wall);
+    for (const ContactPairInput& pair : problem_.contact_pairs) {
+      if (!broken(pair)) check_length(pair, "normal", pair.normal.size());
+    }
+    check_names();
     for (const CrackInput& crack : problem_.cracks) check_crack(crack);
     for (const BoundaryInput& boundary : problem_.boundaries) check_boundary(boundary);
     for (const SymmetryInput& symmetry : problem_.symmetries) check_symmetry(symmetry);
@@ -126,15 +133,58 @@ class ProblemChecker {
     check_in_grid(body);
     check_length(body, "velocity", body.velocity.size());
     check_length(body, "spin_centre", body.spin_centre.size());
-    const std::size_t turns = dimension() == 2 ? 1 : 3;
-    if (!body.spin.empty() && body.spin.size() != turns)
-      add(body, "spin", fmt::format("{} values", body.spin.size()), words(), fmt::format("give {}", turns));
+    check_spin(body, body.spin.size());
     if (body.particles_per_cell.size() > 1) check_length(body, "particles_per_cell", body.particles_per_cell.size());
     if (dimension() == 3 && body.thickness != 1) add(body, "thickness", "a body in space has no thickness", words(), "remove thickness");
   }
 
+  void check_spin(const Located& record, std::size_t length) {
+    const std::size_t turns = dimension() == 2 ? 1 : 3;
+    if (length != 0 && length != turns) add(record, "spin", fmt::format("{} values", length), words(), fmt::format("give {}", turns));
+  }
+
+  void check_rigid(const RigidInput& rigid) {
+    if (broken(rigid)) return;
+    check_shape(rigid, "shape", rigid.shape);
+    check_in_grid(rigid);
+    check_length(rigid, "velocity", rigid.velocity.size());
+    check_spin(rigid, rigid.spin.size());
+    check_length(rigid, "spin_centre", rigid.spin_centre.size());
+    if (rigid.particles_per_cell.size() > 1) check_length(rigid, "particles_per_cell", rigid.particles_per_cell.size());
+    if (dimension() == 3 && rigid.thickness != 1) add(rigid, "thickness", "a body in space has no thickness", words(), "remove thickness");
+    for (std::size_t k = 0; k < rigid.components.size(); ++k)
+      if (dimension() == 2 && rigid.components[k] == "z")
+        add(rigid, fmt::format("components[{}]", k), "the component z", words(), "remove it");
+  }
+
+  void check_wall(const WallInput& wall) {
+    if (broken(wall)) return;
+    check_length(wall, "point", wall.point.size());
+    check_length(wall, "normal", wall.normal.size());
+    check_length(wall, "centre", wall.centre.size());
+    check_length(wall, "velocity", wall.velocity.size());
+    check_spin(wall, wall.spin.size());
+  }
+
+  // Rigid bodies and walls are called by name in contact pairs, as bodies are, and in reaction columns, as conditions are.
+  void check_names() {
+    std::map<std::string, std::string> known;
+    const auto check = [&](const Located& record, const std::string& name, const char* kind) {
+      if (name.empty() || broken(record)) return;
+      const auto [at, fresh] = known.try_emplace(name, kind);
+      if (!fresh && at->second != kind)
+        add(record, "name", fmt::format("the name \"{}\" is taken", name), fmt::format("a [[{}]] has it", at->second), "choose another");
+    };
+    for (const BodyInput& body : problem_.bodies) known.try_emplace(body.name, "body");
+    for (const BoundaryInput& boundary : problem_.boundaries) known.try_emplace(boundary.name, "boundary");
+    for (const SymmetryInput& symmetry : problem_.symmetries) known.try_emplace(symmetry.name, "symmetry");
+    for (const RigidInput& rigid : problem_.rigids) check(rigid, rigid.name, "rigid");
+    for (const WallInput& wall : problem_.walls) check(wall, wall.name, "wall");
+  }
+
   // A finite shape that reaches out of the grid would be cut off silently.
-  void check_in_grid(const BodyInput& body) {
+  template <class Body>
+  void check_in_grid(const Body& body) {
     if (!grid_known_ || !body.shape || (body.shape->dimension() != 0 && body.shape->dimension() != problem_.dimension())) return;
     const Bounds3 box = body.shape->bounds();
     for (std::size_t k = 0; k < dimension(); ++k) {

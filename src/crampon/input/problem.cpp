@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "crampon/geometry/shapes.hpp"
+#include "crampon/input/contact_tables.hpp"
 
 namespace crampon {
 namespace {
@@ -78,35 +79,6 @@ const Declaration<MethodInput>& method_declaration() {
   return d;
 }
 
-const Declaration<ContactInput>& contact_declaration() {
-  static const auto d =
-      Declaration<ContactInput>("contact", "How contact across cracks is found and enforced.")
-          .choice("scheme", &ContactInput::scheme, {{"consistent", ContactScheme::consistent}, {"literal", ContactScheme::literal}},
-                  "one state per node and pair carried through a step, or contact found anew each time as the papers write it")
-          .choice("detection", &ContactInput::detection,
-                  {{"displacement", ContactDetection::displacement}, {"volume", ContactDetection::volume}},
-                  "by the distance of the two faces, or by the relative volume at the node (N03)")
-          .choice("pairs", &ContactInput::pairs, {{"joint", ContactPairs::joint}, {"sequential", ContactPairs::sequential}},
-                  "all pairs of fields at a node together, or one after another (N13)")
-          .quantity("volume_separated", &ContactInput::volume_separated, "1", Bounds::positive(),
-                    "relative volume below which faces are apart (V_sep of N03)")
-          .quantity("volume_contact", &ContactInput::volume_contact, "1", Bounds::positive(),
-                    "relative volume above which faces touch (V_contact of N03)")
-          .flag("require_approach", &ContactInput::require_approach, "contact needs approaching faces also above volume_contact (N13)")
-          .choice("reference_volume", &ContactInput::reference_volume,
-                  {{"cell", ReferenceVolume::cell}, {"initial", ReferenceVolume::initial}},
-                  "undeformed volume at a node: the cell's, or that of the uncut bodies at the start")
-          .quantity("mass_screen", &ContactInput::mass_screen, "1", Bounds::from_below(0, 0.5),
-                    "pairs in which one field has less than this fraction of the mass are left alone")
-          .check([](const ContactInput& in, Diagnostics& diagnostics) {
-            if (in.volume_separated > in.volume_contact)
-              diagnostics.add(in.keys.contains("volume_separated") ? "volume_separated" : "volume_contact",
-                              "volume_separated is above volume_contact", fmt::format("{} > {}", in.volume_separated, in.volume_contact),
-                              "faces that touch must be closer than faces that are apart");
-          });
-  return d;
-}
-
 const Declaration<MaterialInput>& material_declaration() {
   static const auto d = Declaration<MaterialInput>("material", "A named constitutive law; its parameters stand beside the law.")
                             .name("name", &MaterialInput::name, "what bodies call it", required)
@@ -119,6 +91,8 @@ const Declaration<BodyInput>& body_declaration() {
       Declaration<BodyInput>("body", "A shape filled with particles, or particles from a file.")
           .name("name", &BodyInput::name, "what loads, probes and output call it", required)
           .text("material", &BodyInput::material, "name of a [[material]]", required)
+          .text("field", &BodyInput::field,
+                "velocity field: bodies of one name here move as one and meet those of other names; left out: by contact.fields")
           .one_of("shape", &BodyInput::shape, shapes, "the space to fill with particles; either shape or particles")
           .file("particles", &BodyInput::particles,
                 "CSV file with the columns x, y[, z], volume[, vx, vy[, vz]] in SI, used exactly as written")
@@ -354,9 +328,12 @@ const Declaration<Problem>& problem_declaration() {
                             .record("grid", &Problem::grid, grid_declaration, "the background grid", required)
                             .record("time", &Problem::time, time_declaration, "how far and in what steps", required)
                             .record("method", &Problem::method, method_declaration, "choices of the algorithm")
-                            .record("contact", &Problem::contact, contact_declaration, "contact across cracks")
+                            .record("contact", &Problem::contact, contact_declaration, "contact between bodies and across cracks")
                             .records("material", &Problem::materials, material_declaration, "constitutive laws", required)
                             .records("body", &Problem::bodies, body_declaration, "what is made of them", required)
+                            .records("rigid", &Problem::rigids, rigid_declaration, "rigid bodies of particles: tools and moving boundaries")
+                            .records("wall", &Problem::walls, wall_declaration, "rigid walls: half-spaces and balls")
+                            .records("contact_pair", &Problem::contact_pairs, contact_pair_declaration, "what two bodies do when they meet")
                             .records("crack", &Problem::cracks, crack_declaration, "explicit cracks")
                             .records("boundary", &Problem::boundaries, boundary_declaration, "prescribed velocities")
                             .records("symmetry", &Problem::symmetries, symmetry_declaration, "mirror planes")

@@ -53,8 +53,14 @@ struct MethodInput : Located {
   LeavingParticle leaving_particle = LeavingParticle::error;
 };
 
-/// [contact]: how contact across cracks is found and enforced.
+/// [contact]: which bodies have velocity fields of their own, and how contact between them and across cracks is found and enforced.
 struct ContactInput : Located {
+  FieldsOf fields = FieldsOf::all;
+  ContactLawSpec between_fields;  ///< law between two fields unless a contact_pair says otherwise
+  MaterialDetection material_detection = MaterialDetection::position;
+  ContactNormal normal = ContactNormal::logistic_regression;
+  double rigid_bias = 10;
+  SeveralMaterials several_materials = SeveralMaterials::pairwise;
   using Scheme = ContactScheme;
   using Detection = ContactDetection;
   using Pairs = ContactPairs;
@@ -69,6 +75,36 @@ struct ContactInput : Located {
   double mass_screen = 1e-6;  ///< pairs with a mass fraction below this are left alone
 };
 
+/// [[contact_pair]]: what two of them do when they meet.
+struct ContactPairInput : Located {
+  std::vector<std::string> between;  ///< two names of bodies, rigid bodies, walls, materials or fields
+  ContactLawSpec contact;
+  std::vector<double> normal;  ///< from the first to the second; empty: found
+};
+
+/// [[rigid]]: a body of particles that moves as prescribed.
+struct RigidInput : Located {
+  std::string name;
+  ShapePtr shape;
+  std::vector<std::int64_t> particles_per_cell{2};
+  double thickness = 1;                 ///< m, 2D only
+  std::vector<ValueFunction> velocity;  ///< of its centre, m/s, of time
+  std::vector<ValueFunction> spin;      ///< rad/s, of time: one in 2D, three in 3D
+  std::vector<double> spin_centre;      ///< at the start, m; default: its centre of volume
+  enum class Role { contact, boundary } role = Role::contact;
+  std::vector<std::string> components;  ///< boundary: of the velocity; empty: all
+};
+
+/// [[wall]]: a rigid body known by a formula.
+struct WallInput : Located {
+  std::string name;
+  enum class Kind { half_space, ball, hollow_ball } kind = Kind::half_space;
+  std::vector<double> point, normal;  ///< half_space: a point of its surface, m, and a vector out of it
+  std::vector<double> centre;         ///< ball, hollow_ball, m
+  std::optional<double> radius;       ///< m
+  std::vector<ValueFunction> velocity, spin;
+};
+
 /// [[material]]: a named constitutive law.
 struct MaterialInput : Located {
   std::string name;
@@ -79,6 +115,7 @@ struct MaterialInput : Located {
 struct BodyInput : Located {
   std::string name;
   std::string material;
+  std::optional<std::string> field;                 ///< velocity field; left out: what contact.fields says
   ShapePtr shape;                                   ///< either shape or particles
   std::optional<std::string> particles;             ///< CSV file, relative to the input: x,y[,z],volume[,vx,vy[,vz]], SI
   std::vector<std::int64_t> particles_per_cell{2};  ///< per direction; one value or one per axis; also the uGIMP particle size
@@ -183,6 +220,9 @@ struct Problem : Located {
   ContactInput contact;
   std::vector<MaterialInput> materials;
   std::vector<BodyInput> bodies;
+  std::vector<RigidInput> rigids;
+  std::vector<WallInput> walls;
+  std::vector<ContactPairInput> contact_pairs;
   std::vector<CrackInput> cracks;
   std::vector<BoundaryInput> boundaries;
   std::vector<SymmetryInput> symmetries;

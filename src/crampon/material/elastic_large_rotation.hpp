@@ -15,6 +15,7 @@ struct ElasticLargeRotation {
   static constexpr const char* name = "elastic_large_rotation";
   static const Declaration<ElasticLargeRotation>& declaration();
   static constexpr bool wave_speed_changes = false;
+  static constexpr bool starts_with_deformation_gradient = true;
   template <int Dim>
   static constexpr int history_size = deformation_size<Dim>;
 

@@ -2,6 +2,7 @@
 /// What the time step asks of a constitutive law. Calls are made per batch of packs, never per particle, so that they cost nothing
 /// (docs/decisions/0004-material-dispatch.md).
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -49,6 +50,8 @@ class MaterialLaw {
   virtual bool update(StressState, const StressBatch<2>&) const = 0;
   virtual bool update(StressState, const StressBatch<3>&) const = 0;
   virtual PackReport report(StressState, int dimension, const Pack* stress, const Pack* history) const = 0;
+  /// Deformation gradient in space, F[d * dimension + k] = dx_d/dX_k; I + strain for laws of small strain.
+  virtual void deformation(StressState, int dimension, const Pack* stress, const Pack* history, Pack* F) const = 0;
 };
 
 inline bool all_positive(Pack a) { return a[0] > 0 && a[1] > 0 && a[2] > 0 && a[3] > 0; }
@@ -59,6 +62,7 @@ inline bool all_positive(Pack a) { return a[0] > 0 && a[1] > 0 && a[2] > 0 && a[
 ///   template <int Dim> static void initialise(Pack* history);
 ///   template <int Dim, StressState> Pack update(const Pack* L, double dt, Pack* stress, Pack* history) const  -> V/V0
 ///   template <int Dim, StressState> PackReport report(const Pack* stress, const Pack* history) const
+///   static constexpr bool starts_with_deformation_gradient = true;                       (only if its history does)
 ///   template <int Dim, StressState> Pack present_wave_speed(stress, history) const      (only if wave_speed_changes).
 template <class Law>
 class LawKernel final : public MaterialLaw {
@@ -87,6 +91,17 @@ class LawKernel final : public MaterialLaw {
   bool update(StressState, const StressBatch<3>& b) const override { return sweep<3, StressState::three_dimensional>(b); }
   PackReport report(StressState s, int dimension, const Pack* stress, const Pack* history) const override {
     return dispatch(s, dimension, [&]<int Dim, StressState S>() { return law_.template report<Dim, S>(stress, history); });
+  }
+  void deformation(StressState s, int dimension, const Pack* stress, const Pack* history, Pack* F) const override {
+    if constexpr (requires { Law::starts_with_deformation_gradient; }) {
+      std::copy_n(history, dimension * dimension, F);
+    } else {
+      static constexpr int at[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+      const PackReport r = report(s, dimension, stress, history);
+      for (int d = 0; d < dimension; ++d) {
+        for (int k = 0; k < dimension; ++k) F[d * dimension + k] = r.strain[at[d][k]] + (d == k ? 1. : 0.);
+      }
+    }
   }
 
  private:

@@ -15,6 +15,7 @@ struct NeoHookean {
   static constexpr const char* name = "neo_hookean";
   static const Declaration<NeoHookean>& declaration();
   static constexpr bool wave_speed_changes = true;
+  static constexpr bool starts_with_deformation_gradient = true;
   template <int Dim>
   static constexpr int history_size = deformation_size<Dim>;
 

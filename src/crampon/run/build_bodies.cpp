@@ -9,6 +9,7 @@
 
 #include "crampon/geometry/fill.hpp"
 #include "crampon/geometry/particles_csv.hpp"
+#include "crampon/material/rigid.hpp"
 
 namespace crampon {
 
@@ -38,31 +39,128 @@ class BodyBuilder {
       out_.per_cell.push_back(per_axis<Dim>(body.particles_per_cell));
       out_.on_lattice.push_back(body.shape != nullptr);
       const std::size_t first = out_.particles.size();
-      const auto material = material_of(body, out_.per_cell.back());
+      const auto material = material_of(body, out_.per_cell.back(), field_of(body));
       if (body.shape) {
         fill(body, b, material);
       } else {
         read(body, b, material);
       }
       move(body, first);
+      out_.names.push_back(body.name);
     }
+    for (const RigidInput& in : problem_.rigids) add_rigid(in);
+    for (const WallInput& in : problem_.walls) add_wall(in);
     return std::move(out_);
   }
 
  private:
-  std::uint32_t material_of(const BodyInput& body, const std::array<int, Dim>& per_cell) {
-    const auto key = std::tuple{body.material, body.thickness, per_cell};
+  /// The velocity field of a body: its own word, or what contact.fields says.
+  std::uint16_t field_of(const BodyInput& body) {
+    std::string name;
+    if (problem_.contact.fields == FieldsOf::materials) name = body.material;
+    if (problem_.contact.fields == FieldsOf::bodies) name = body.name;
+    if (body.field) name = *body.field;
+    for (std::size_t f = 0; f < out_.fields.size(); ++f) {
+      if (out_.fields[f].name == name) return static_cast<std::uint16_t>(f);
+    }
+    return add_field(name, Dim == 2 ? body.thickness : 1., out_.per_cell.back());
+  }
+
+  std::uint16_t add_field(const std::string& name, double thickness, const std::array<int, Dim>& per_cell) {
+    MaterialField field;
+    field.name = name;
+    field.thickness = thickness;
+    std::array<double, Dim> half_size;
+    for (int k = 0; k < Dim; ++k) half_size[k] = 0.5 / per_cell[k];
+    switch (problem_.method.shape_functions) {
+      case ShapeFunctionKind::linear:
+        field.edge = EdgeMap::linear(half_size);
+        break;
+      case ShapeFunctionKind::gimp:
+        field.edge = EdgeMap::gimp(half_size);
+        break;
+      case ShapeFunctionKind::bspline:
+        field.edge = EdgeMap::bspline(half_size);
+        break;
+    }
+    out_.fields.push_back(std::move(field));
+    return static_cast<std::uint16_t>(out_.fields.size() - 1);
+  }
+
+  /// Centre, velocity and spin of a rigid body or wall; its field is made for it alone.
+  RigidBody<Dim>& add_rigid_body(const std::string& name, const std::vector<ValueFunction>& velocity,
+                                 const std::vector<ValueFunction>& spin, double thickness, const std::array<int, Dim>& per_cell) {
+    RigidBody<Dim> body;
+    body.name = name;
+    body.velocity = velocity;
+    body.spin = spin;
+    body.field = add_field(name, thickness, per_cell);
+    out_.fields.back().rigid = true;
+    out_.fields.back().body = static_cast<int>(out_.rigid_bodies.size());
+    out_.rigid_bodies.push_back(std::move(body));
+    return out_.rigid_bodies.back();
+  }
+
+  void add_rigid(const RigidInput& in) {
+    BodyInput as_body;
+    static_cast<Located&>(as_body) = in;
+    as_body.name = in.name;
+    as_body.shape = in.shape;
+    as_body.thickness = in.thickness;
+    as_body.particles_per_cell = in.particles_per_cell;
+    out_.per_cell.push_back(per_axis<Dim>(in.particles_per_cell));
+    out_.on_lattice.push_back(true);
+    RigidBody<Dim>& body = add_rigid_body(in.name, in.velocity, in.spin, Dim == 2 ? in.thickness : 1., out_.per_cell.back());
+    body.prescribes = in.role == RigidInput::Role::boundary;
+    const std::size_t first = out_.particles.size();
+    const auto material = add_material(std::make_shared<RigidMaterial>(), as_body, out_.per_cell.back(), body.field);
+    fill(as_body, out_.names.size(), material);
+    out_.names.push_back(in.name);
+    double volume = 0;
+    for (std::size_t i = first; i < out_.particles.size(); ++i) {
+      body.centre += out_.particles[i].x * out_.particles[i].volume;
+      volume += out_.particles[i].volume;
+    }
+    if (volume > 0) body.centre *= 1 / volume;
+    for (std::size_t k = 0; k < in.spin_centre.size(); ++k) body.centre[k] = in.spin_centre[k];
+  }
+
+  void add_wall(const WallInput& in) {
+    std::array<int, Dim> per_cell;
+    per_cell.fill(2);
+    RigidBody<Dim>& body = add_rigid_body(in.name, in.velocity, in.spin, HUGE_VAL, per_cell);
+    Wall<Dim> wall;
+    const bool flat = in.kind == WallInput::Kind::half_space;
+    wall.kind = flat ? Wall<Dim>::Kind::half_space : in.kind == WallInput::Kind::ball ? Wall<Dim>::Kind::ball : Wall<Dim>::Kind::hollow;
+    wall.radius = in.radius.value_or(0);
+    for (int k = 0; k < Dim; ++k) {
+      body.centre[k] = (flat ? in.point : in.centre)[static_cast<std::size_t>(k)];
+      if (flat) wall.normal[k] = in.normal[static_cast<std::size_t>(k)];
+    }
+    wall.normal = normalized(wall.normal);
+    body.wall = wall;
+  }
+
+  std::uint32_t material_of(const BodyInput& body, const std::array<int, Dim>& per_cell, std::uint16_t field) {
+    const auto key = std::tuple{body.material, body.thickness, per_cell, field};
     const auto [at, fresh] = known_.try_emplace(key, static_cast<std::uint32_t>(out_.materials.size()));
     if (fresh) {
-      Material<Dim> m;
       for (const MaterialInput& in : problem_.materials) {
-        if (in.name == body.material) m.law = in.law;
+        if (in.name == body.material) add_material(in.law, body, per_cell, field);
       }
-      m.thickness = Dim == 2 ? body.thickness : 1;
-      for (int k = 0; k < Dim; ++k) m.half_size[k] = 0.5 / per_cell[k];
-      out_.materials.push_back(std::move(m));
     }
     return at->second;
+  }
+
+  std::uint32_t add_material(std::shared_ptr<const MaterialLaw> law, const BodyInput& body, const std::array<int, Dim>& per_cell,
+                             std::uint16_t field) {
+    Material<Dim> m;
+    m.law = std::move(law);
+    m.thickness = Dim == 2 ? body.thickness : 1;
+    for (int k = 0; k < Dim; ++k) m.half_size[k] = 0.5 / per_cell[k];
+    m.field = field;
+    out_.materials.push_back(std::move(m));
+    return static_cast<std::uint32_t>(out_.materials.size() - 1);
   }
 
   void add(std::size_t b, std::uint32_t material, const Vec<3>& x, double volume, const Vec<3>& v) {
@@ -143,7 +241,7 @@ class BodyBuilder {
   const Grid<Dim>& grid_;
   std::vector<Diagnostic>& errors_;
   BuiltBodies<Dim> out_;
-  std::map<std::tuple<std::string, double, std::array<int, Dim>>, std::uint32_t> known_;
+  std::map<std::tuple<std::string, double, std::array<int, Dim>, std::uint16_t>, std::uint32_t> known_;
 };
 
 }  // namespace

@@ -21,7 +21,10 @@ struct NewParticle {
 template <int Dim>
 struct BuiltBodies {
   std::vector<NewParticle<Dim>> particles;
-  std::vector<Material<Dim>> materials;        ///< one for every combination of law, thickness and particle size
+  std::vector<Material<Dim>> materials;        ///< one for every combination of law, thickness, particle size and velocity field
+  std::vector<MaterialField> fields;           ///< velocity fields in the order in which bodies name them; rigid bodies after them
+  std::vector<RigidBody<Dim>> rigid_bodies;    ///< with particles, then walls
+  std::vector<std::string> names;              ///< of bodies, then of rigid bodies with particles
   std::vector<std::array<int, Dim>> per_cell;  ///< per body
   std::vector<bool> on_lattice;                ///< per body: filled, not from a file
 };

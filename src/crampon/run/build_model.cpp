@@ -10,6 +10,7 @@
 
 #include "crampon/geometry/arc.hpp"
 #include "crampon/run/build_bodies.hpp"
+#include "crampon/run/build_contact.hpp"
 
 namespace crampon {
 
@@ -216,6 +217,7 @@ class LoadBuilder {
 
  private:
   bool selected(const LoadInput& in, const NewParticle<Dim>& p) const {
+    if (p.body >= problem_.bodies.size()) return false;  // rigid
     if (!in.body.empty() && problem_.bodies[p.body].name != in.body) return false;
     return !in.region || in.region->contains(in_space(p.x), 1e-9 * model_.grid.smallest_cell());
   }
@@ -295,7 +297,8 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
         const std::size_t slot = k * lanes + l, i = slot - std::size_t{run.first_pack} * lanes;
         const bool real = i < by_material[m].size();
         const NewParticle<Dim>& p = bodies.particles[by_material[m][real ? i : by_material[m].size() - 1]];
-        particles.set_motion(slot, p.x, p.v);
+        const MaterialField& field = model.fields[model.materials[m].field];
+        particles.set_motion(slot, p.x, field.rigid ? state.rigid[static_cast<std::size_t>(field.body)].start.velocity_at(p.x) : p.v);
         particles.mass_volume[2 * k][l] = real ? p.mass : 0.;
         particles.mass_volume[2 * k + 1][l] = real ? p.volume : 0.;
         particles.original[slot] = p.x;
@@ -328,14 +331,19 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   model.body_force = problem.method.body_force;
   model.damping = problem.method.damping;
   model.damped = model.damping.depends_on_time() || model.damping(0, {}) != 0;
-  model.contact = {problem.contact.scheme,           problem.contact.detection,        problem.contact.pairs,
-                   problem.contact.reference_volume, problem.contact.volume_separated, problem.contact.volume_contact,
-                   problem.contact.require_approach, problem.contact.mass_screen};
+  const ContactInput& contact = problem.contact;
+  model.contact = {contact.scheme,           contact.detection,        contact.pairs,
+                   contact.reference_volume, contact.volume_separated, contact.volume_contact,
+                   contact.require_approach, contact.mass_screen,      contact.material_detection,
+                   contact.normal,           contact.rigid_bias,       contact.several_materials};
 
   BuiltBodies<Dim> bodies = build_bodies<Dim>(problem, model.grid, errors);
   model.materials = std::move(bodies.materials);
-  for (const BodyInput& body : problem.bodies) model.bodies.push_back(body.name);
+  model.fields = std::move(bodies.fields);
+  model.rigid_bodies = std::move(bodies.rigid_bodies);
+  model.bodies = bodies.names;
   build_conditions(problem, model, errors);
+  build_contact(problem, model, out.state, errors);
   if constexpr (Dim == 2) build_cracks(problem, model.grid, out.state.cracks, model.crack_laws, errors);
   if (errors.empty()) {
     LoadBuilder<Dim> loads(problem, bodies, model, errors);

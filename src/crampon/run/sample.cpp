@@ -212,6 +212,7 @@ PointFrame sample_nodes(const State<Dim>& state, const Model<Dim>& model) {
     const BlockLayers<Dim>& layers = state.nodes.layers[b];
     const auto first = state.blocks.list[b].first_node();
     for (std::size_t l = 0; l < layers.node.size(); ++l) {
+      if (model.is_rigid(layers.node[l].field)) continue;
       for (int n = 0; n < block_nodes<Dim>; ++n) {
         const std::size_t i = (layers.node_begin + l) * block_nodes<Dim> + n;
         const Pack p = state.nodes.momentum[i];

@@ -84,11 +84,16 @@ class Engine final : public Simulation {
   std::vector<HistoryColumn> history_columns() const override {
     std::vector<HistoryColumn> c = {{"time", "s"},         {"kinetic_energy", "J"},  {"strain_energy", "J"}, {"total_energy", "J"},
                                     {"load_work", "J"},    {"body_force_work", "J"}, {"boundary_work", "J"}, {"damping_loss", "J"},
-                                    {"contact_loss", "J"}, {"energy_closure", "J"}};
+                                    {"contact_loss", "J"}, {"friction_loss", "J"},   {"energy_closure", "J"}};
     for (int k = 0; k < Dim; ++k) c.push_back({std::string("momentum_") + axis_names[k], "kg m/s"});
     c.push_back({"angular_momentum_z", "kg m2/s"});
     for (const auto& condition : model_.conditions) {
       for (int k = 0; k < Dim; ++k) c.push_back({std::string("reaction_") + axis_names[k] + "." + condition.name, "N"});
+    }
+    for (const auto& body : model_.rigid_bodies) {
+      if (body.prescribes) continue;  // its condition has the columns
+      for (int k = 0; k < Dim; ++k) c.push_back({std::string("reaction_") + axis_names[k] + "." + body.name, "N"});
+      for (int k = Dim == 2 ? 2 : 0; k < 3; ++k) c.push_back({std::string("torque_") + axis_names[k] + "." + body.name, "N m"});
     }
     for (const auto& crack : state_.cracks.list) {
       c.push_back({"opening_min." + crack.name, "m"});
@@ -106,13 +111,20 @@ class Engine final : public Simulation {
     const auto sums = sum_particles(state_, model_);
     const EnergyTotals& e = state_.energy;
     const double total = sums.kinetic + sums.strain;
-    const double closure = total + e.damping + e.contact_loss - e.load_work - e.body_work - e.boundary_work - initial_energy_;
-    std::vector<double> row = {state_.time, sums.kinetic,    sums.strain, total,          e.load_work,
-                               e.body_work, e.boundary_work, e.damping,   e.contact_loss, closure};
+    const double closure =
+        total + e.damping + e.contact_loss + e.friction_loss - e.load_work - e.body_work - e.boundary_work - initial_energy_;
+    std::vector<double> row = {state_.time,     sums.kinetic, sums.strain,    total,           e.load_work, e.body_work,
+                               e.boundary_work, e.damping,    e.contact_loss, e.friction_loss, closure};
     for (int k = 0; k < Dim; ++k) row.push_back(sums.momentum[k]);
     row.push_back(sums.angular);
     for (std::size_t c = 0; c < model_.conditions.size(); ++c) {
       for (int k = 0; k < Dim; ++k) row.push_back(c < state_.reactions.size() ? state_.reactions[c][k] : 0.);
+    }
+    for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b) {
+      if (model_.rigid_bodies[b].prescribes) continue;
+      const RigidReaction<Dim> r = b < state_.rigid_reactions.size() ? state_.rigid_reactions[b] : RigidReaction<Dim>{};
+      for (int k = 0; k < Dim; ++k) row.push_back(r.force[k]);
+      for (int k = Dim == 2 ? 2 : 0; k < 3; ++k) row.push_back(r.torque[k]);
     }
     if constexpr (Dim == 2) {
       for (const auto& crack : state_.cracks.list) add_openings(crack, row);

@@ -6,6 +6,7 @@
 
 #include "crampon/core/aligned_array.hpp"
 #include "crampon/core/pack.hpp"
+#include "crampon/core/vector.hpp"
 #include "crampon/state/blocks.hpp"
 #include "crampon/state/layers.hpp"
 
@@ -17,9 +18,31 @@ struct MotionRecord {
   Pack r[motion_packs<Dim>];
 };
 
-/// Sums behind contact at a node, per layer: {V, m(x - x_i), m(X - x_i)} (N03 Eq. 8; contact.md 2.2); area/thickness in 2D: m2.
+/// Sums behind contact at a node, per layer: {V, m(x - x_i)}, {grad V, m(X - x_i)} (N03 Eq. 8, N13 sec. 3 step 1); in 2D V is the area, m2,
+/// and two packs hold all: {V, m x, m y, dV/dx}, {dV/dy, m X, m Y, 0}. In 3D {V, m x}, {0, m X}, {grad V, 0}.
+template <int Dim>
 struct ContactSums {
-  Pack r[2];
+  Pack r[Dim == 2 ? 2 : 3];
+
+  double volume() const { return r[0][0]; }
+  Vec<Dim> present() const { return three(r[0]); }   ///< sum of m (x - x_i), kg m
+  Vec<Dim> original() const { return three(r[1]); }  ///< sum of m (X - x_i), kg m
+  Vec<Dim> gradient() const {                        ///< sum of V_p G_ip: out of the material
+    Vec<Dim> g;
+    if constexpr (Dim == 2) {
+      g[0] = r[0][3], g[1] = r[1][0];
+    } else {
+      for (int k = 0; k < 3; ++k) g[k] = r[2][k];
+    }
+    return g;
+  }
+
+ private:
+  static Vec<Dim> three(Pack a) {
+    Vec<Dim> x;
+    for (int k = 0; k < Dim; ++k) x[k] = a[1 + k];
+    return x;
+  }
 };
 
 /// Sums over the pairs that cross one crack, per node: {n, side, N, count}; n present, N original unit normals (CONVENTIONS 9, 17).
@@ -39,7 +62,8 @@ struct BlockLayers {
   std::vector<std::int32_t> special;              ///< per pack of the block: index of its targets, or -1; empty: none special
   std::uint32_t tile_begin = 0, node_begin = 0;   ///< first tile / nodal slot
   std::uint32_t crossing_tile_begin = 0, crossing_node_begin = 0;
-  bool sums_contact = false;  ///< some node in reach has several layers
+  bool near_wall = false;     ///< own nodes within reach of an analytic wall
+  bool sums_contact = false;  ///< some node in reach has several layers or is near a wall
 };
 
 /// All nodal quantities of a step. Arrays are indexed [slot][local node]; a slot is a (block, layer).
@@ -51,7 +75,7 @@ struct Nodes {
   // Tiles: private to a block, added up by assembly.
   AlignedArray<Pack> tile_momentum;
   AlignedArray<NodalVector<Dim>> tile_force;
-  AlignedArray<ContactSums> tile_contact;
+  AlignedArray<ContactSums<Dim>> tile_contact;
   AlignedArray<CrossingSums> tile_crossing;
 
   // Nodes of blocks.
@@ -59,7 +83,7 @@ struct Nodes {
   AlignedArray<NodalVector<Dim>> force;     ///< N
   AlignedArray<NodalVector<Dim>> velocity;  ///< what the next stress update reads, m/s
   AlignedArray<MotionRecord<Dim>> motion;   ///< {v', a} of Task 4
-  AlignedArray<ContactSums> contact;
+  AlignedArray<ContactSums<Dim>> contact;
   AlignedArray<CrossingSums> crossing;
 
   std::size_t bytes() const {

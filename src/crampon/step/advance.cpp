@@ -3,9 +3,9 @@
 #include <chrono>
 
 #include "crampon/core/parallel.hpp"
-#include "crampon/step/adjust_contact.hpp"
 #include "crampon/step/assign_velocity_fields.hpp"
 #include "crampon/step/boundary.hpp"
+#include "crampon/step/find_contacts.hpp"
 #include "crampon/step/guard.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/ledger.hpp"
@@ -13,6 +13,7 @@
 #include "crampon/step/nodes_phase.hpp"
 #include "crampon/step/project.hpp"
 #include "crampon/step/reorder.hpp"
+#include "crampon/step/rigid_motion.hpp"
 #include "crampon/step/update_particles.hpp"
 
 namespace crampon {
@@ -71,6 +72,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   phases.serial("prepare", [&] {
     if (state.must_reorder) reorder<Dim, Shape>(state, model);
     evaluate_conditions(state, model, dt);
+    start_rigid_motion(state, model, dt);
     evaluate_loads(state, model, load_values, body_force, damping);
     assign_velocity_fields<Dim, Shape>(state, model);  // Task 0
     record_initial_volume<Dim, Shape>(state, model);
@@ -81,7 +83,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   });
   phases.blocks("contact and boundaries", [&](B b) { settle_start_momenta<Dim, Shape>(state, model, b, dt); });  // Task 2
   phases.blocks("stress and forces", [&](B b) {                                                                  // Tasks 2, 3
-    update_stress_and_project_forces<Dim, Shape>(state, model, b, stress_first ? stress_dt : 0., load_values, body_force);
+    update_stress_and_project_forces<Dim, Shape>(state, model, b, dt, stress_first ? stress_dt : 0., load_values, body_force);
   });
   phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });  // Tasks 3, 4
   phases.blocks("account loads", [&](B b) { account_loads<Dim, Shape>(state, model, b, dt, load_values, body_force); });
@@ -91,11 +93,13 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   }
   phases.serial("move cracks", [&] {  // Task 8
     remember_contacts(state);
+    remember_rigid_conditions(state, model);
     move_cracks(state, model, dt);
   });
   phases.blocks("stress and positions", [&](B b) {  // Tasks 5, 6
     finish_particles<Dim, Shape>(state, model, b, dt, stress_last ? stress_dt : 0., !re_extrapolates);
   });
+  end_rigid_motion(state);
   state.time += dt;
   ++state.step;
   close_ledger(state, model);

@@ -8,6 +8,7 @@
 #include "crampon/crack/crossing.hpp"
 #include "crampon/crack/facet_bins.hpp"
 #include "crampon/step/assemble.hpp"
+#include "crampon/step/find_contacts.hpp"
 #include "crampon/step/instantiate.hpp"
 
 namespace crampon {
@@ -100,6 +101,7 @@ class BlockAssignment {
       stencil.compute(x, model_.grid, first, model_.materials[run->material].half_size);
       layers_.special[k - first_pack] = count++;
       field_ = model_.materials[run->material].field;
+      sees_cracks_ = !model_.is_rigid(field_);
       own_layer_ = layers_.run_layer[static_cast<std::size_t>(run - &state_.blocks.runs[block_.first_run])];
       for (int l = 0; l < lanes; ++l) assign(stencil, x, l, state_.particles.is_padding(std::size_t{k} * lanes + l));
     }
@@ -143,7 +145,7 @@ class BlockAssignment {
       fold(x_p, node, x_i[n], target[n]);
     }
     if constexpr (Dim == 2) {
-      if (!view_.bins.empty()) cross(stencil, x, l, x_p, x_i, target, signature, padding);
+      if (!view_.bins.empty() && sees_cracks_) cross(stencil, x, l, x_p, x_i, target, signature, padding);
     }
     for (int n = 0; n < T::stencil; ++n) {
       if (!signature[n].empty()) {
@@ -248,6 +250,7 @@ class BlockAssignment {
   std::vector<CrackId> cracks_;
   std::vector<std::vector<CrossingSums>> sums_;
   std::uint16_t field_ = 0;     ///< of the particles at hand
+  bool sees_cracks_ = true;     ///< ... rigid bodies have one field whatever cracks part the material beside them
   std::uint8_t own_layer_ = 0;  ///< ... and the layer of their pairs that cross nothing
   bool fits_ = true;
 };
@@ -275,14 +278,30 @@ void find_node_layers(State<Dim>& state, std::size_t b) {
   own.node_cracks.erase(std::unique(own.node_cracks.begin(), own.node_cracks.end()), own.node_cracks.end());
 }
 
-/// Does a tile reach own nodes, of some block around it, that hold several layers?
+/// Are own nodes of a block within reach of an analytic wall?
+template <int Dim, class Shape>
+bool is_near_wall(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  Vec<Dim> centre, half;
+  const auto first = state.blocks.list[b].first_node();
+  for (int k = 0; k < Dim; ++k) {
+    half[k] = 0.5 * (block_side - 1) * model.grid.cell[k];
+    centre[k] = model.grid.node_coordinate(k, first[k]) + half[k];
+  }
+  for (std::size_t body = 0; body < model.rigid_bodies.size(); ++body) {
+    const auto& wall = model.rigid_bodies[body].wall;
+    if (wall && wall->seen_from(centre, state.rigid[body].start.centre).distance < norm(half) + wall_reach(model.grid)) return true;
+  }
+  return false;
+}
+
+/// Does a tile reach own nodes, of some block around it, that hold several layers or are near a wall?
 template <int Dim, class Shape>
 bool reaches_shared_nodes(const State<Dim>& state, std::size_t b) {
   const Block<Dim>& block = state.blocks.list[b];
   if (!block.has_particles()) return false;
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t c = block.neighbours[o];
-    if (c == no_block || state.nodes.layers[c].node.size() == 1) continue;
+    if (c == no_block || (state.nodes.layers[c].node.size() == 1 && !state.nodes.layers[c].near_wall)) continue;
     IndexVector<Dim> step = neighbour_step<Dim>(o);
     for (int k = 0; k < Dim; ++k) step[k] = -step[k];
     if (!Overlap<Dim, Shape>(step, block.touched).empty) return true;
@@ -305,9 +324,12 @@ void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::
   Nodes<Dim>& nodes = state.nodes;
   const std::size_t blocks = state.blocks.size();
   const bool cracked = !state.cracks.empty();
-  const bool several = cracked || model.fields > 1;
+  const bool several = cracked || model.fields.size() > 1;
   if (several) {
-    parallel_for(blocks, model.threads, [&](std::size_t b) { find_node_layers<Dim, Shape>(state, b); });
+    parallel_for(blocks, model.threads, [&](std::size_t b) {
+      find_node_layers<Dim, Shape>(state, b);
+      nodes.layers[b].near_wall = is_near_wall<Dim, Shape>(state, model, b);
+    });
     parallel_for(blocks, model.threads, [&](std::size_t b) { nodes.layers[b].sums_contact = reaches_shared_nodes<Dim, Shape>(state, b); });
   }
   nodes.tile_slots = nodes.node_slots = nodes.crossing_tile_slots = nodes.crossing_node_slots = 0;
@@ -348,7 +370,7 @@ void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model) {
   }
   std::vector<std::vector<CrossingSums>> crossing(state.blocks.size());
   std::atomic<bool> fits{true};
-  if (!state.cracks.empty() || !model.symmetries.empty() || model.fields > 1) {
+  if (!state.cracks.empty() || !model.symmetries.empty() || model.fields.size() > 1) {
     parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) {
       BlockLayers<Dim>& layers = state.nodes.layers[b];
       reset_layers(layers);

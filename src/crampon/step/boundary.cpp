@@ -27,11 +27,12 @@ bool is_overruled(const std::vector<FixedComponent>& fixed, std::size_t i) {
 
 /// f(component, slot index into nodal arrays, index into p_int) for the active fixed components of a block, in all its layers.
 template <int Dim, class F>
-void for_fixed(State<Dim>& state, std::size_t b, F f) {
+void for_fixed(State<Dim>& state, const Model<Dim>& model, std::size_t b, F f) {
   auto& scratch = state.scratch[b];
   const BlockLayers<Dim>& layers = state.nodes.layers[b];
   const std::size_t count = scratch.fixed.size();
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    if (model.is_rigid(layers.node[l].field)) continue;
     for (std::size_t i = 0; i < count; ++i) {
       FixedComponent& c = scratch.fixed[i];
       if (!c.active) continue;
@@ -91,9 +92,64 @@ void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt) 
 }
 
 template <int Dim>
+void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  auto& fixed = state.scratch[b].fixed;
+  const auto by_rigid = [&](const FixedComponent& f) { return model.conditions[f.condition].rigid_body >= 0; };
+  fixed.erase(std::remove_if(fixed.begin(), fixed.end(), by_rigid), fixed.end());
+  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  const auto first = state.blocks.list[b].first_node();
+  bool added = false;
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    const MaterialField& field = model.fields[layers.node[l].field];
+    if (!field.rigid || !model.rigid_bodies[static_cast<std::size_t>(field.body)].prescribes) continue;
+    const RigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(field.body)];
+    const std::uint16_t condition = model.rigid_bodies[static_cast<std::size_t>(field.body)].condition;
+    for (int node = 0; node < block_nodes<Dim>; ++node) {
+      if (!(state.nodes.momentum[(layers.node_begin + l) * block_nodes<Dim> + static_cast<std::size_t>(node)][Dim] > 0)) continue;
+      IndexVector<Dim> index = unflatten<Dim>(node, block_side);
+      for (int k = 0; k < Dim; ++k) index[k] += first[k];
+      const Vec<Dim> x = model.grid.node_position(index);
+      const Vec<Dim> v_old = motion.start.velocity_at(x), v_new = motion.end.velocity_at(x);
+      for (std::size_t q = 0; q < model.conditions[condition].components.size(); ++q) {
+        const int axis = model.conditions[condition].components[q].axis;
+        FixedComponent f;
+        f.node = static_cast<std::uint16_t>(node);
+        f.axis = static_cast<std::uint8_t>(axis);
+        f.condition = condition;
+        f.component = static_cast<std::uint16_t>(q);
+        f.active = true;
+        f.fresh = !std::binary_search(state.prescribed_by_rigid.begin(), state.prescribed_by_rigid.end(),
+                                      model.grid.node_number(index) * Dim + axis);
+        f.v_old = v_old[axis];
+        f.v_new = v_new[axis];
+        fixed.push_back(f);
+        added = true;
+      }
+    }
+  }
+  if (added) sort_by_component(fixed);
+}
+
+template <int Dim>
+void remember_rigid_conditions(State<Dim>& state, const Model<Dim>& model) {
+  state.prescribed_by_rigid.clear();
+  if (model.rigid_bodies.empty()) return;
+  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
+    const auto first = state.blocks.list[b].first_node();
+    for (const FixedComponent& f : state.scratch[b].fixed) {
+      if (model.conditions[f.condition].rigid_body < 0) continue;
+      IndexVector<Dim> index = unflatten<Dim>(f.node, block_side);
+      for (int k = 0; k < Dim; ++k) index[k] += first[k];
+      state.prescribed_by_rigid.push_back(model.grid.node_number(index) * Dim + f.axis);
+    }
+  }
+  std::sort(state.prescribed_by_rigid.begin(), state.prescribed_by_rigid.end());
+}
+
+template <int Dim>
 void impose_symmetry(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   if (model.symmetries.empty()) return;
-  for_fixed(state, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
+  for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
     if (model.conditions[c.condition].symmetry) state.nodes.momentum[i][c.axis] = 0;
   });
 }
@@ -103,7 +159,7 @@ void impose_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_
   auto& scratch = state.scratch[b];
   if (scratch.fixed.empty()) return;
   scratch.p_int.assign(scratch.fixed.size() * state.nodes.layers[b].node.size(), 0.);
-  for_fixed(state, b, [&](FixedComponent& c, std::size_t i, std::size_t kept) {
+  for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t kept) {
     Pack& p = state.nodes.momentum[i];
     scratch.p_int[kept] = p[c.axis];
     const bool symmetry = model.conditions[c.condition].symmetry;
@@ -116,7 +172,7 @@ void impose_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_
 template <int Dim>
 void impose_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
   auto& scratch = state.scratch[b];
-  for_fixed(state, b, [&](FixedComponent& c, std::size_t i, std::size_t kept) {
+  for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t kept) {
     Pack& p = state.nodes.momentum[i];
     NodalVector<Dim>& f = state.nodes.force[i];
     const bool symmetry = model.conditions[c.condition].symmetry;
@@ -148,7 +204,7 @@ void impose_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
 template <int Dim>
 void impose_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   if (state.scratch[b].fixed.empty()) return;
-  for_fixed(state, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
+  for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
     Pack& p = state.nodes.momentum[i];
     p[c.axis] = model.conditions[c.condition].symmetry ? 0. : p[Dim] * c.v_new;
   });
@@ -167,6 +223,8 @@ unsigned fixed_axes(const State<Dim>& state, std::size_t b, int node) {
 
 #define CRAMPON_INSTANTIATE(DIM)                                                         \
   template void evaluate_conditions<DIM>(State<DIM>&, const Model<DIM>&, double);        \
+  template void prescribe_by_rigid<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);    \
+  template void remember_rigid_conditions<DIM>(State<DIM>&, const Model<DIM>&);          \
   template void impose_symmetry<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);       \
   template void impose_start_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);  \
   template void impose_forces<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double); \

@@ -4,6 +4,8 @@
 ///
 /// A value belongs to the time of the momentum it is given to: the start of the step in Task 2, its end in Tasks 3 to 6.
 
+#include <algorithm>
+
 #include "crampon/step/model.hpp"
 #include "crampon/step/state.hpp"
 
@@ -12,6 +14,21 @@ namespace crampon {
 /// Values of all fixed components at the start and the end of the step; serial, as expressions are evaluated here.
 template <int Dim>
 void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt);
+
+/// In the order that the functions here rely on: by node and axis, and for one component as stated.
+inline void sort_by_component(std::vector<FixedComponent>& fixed) {
+  std::stable_sort(fixed.begin(), fixed.end(), [](const FixedComponent& a, const FixedComponent& b) {
+    return std::pair{a.node, a.axis} < std::pair{b.node, b.axis};
+  });
+}
+
+/// After Task 1: the own nodes that prescribing rigid bodies reach now, and the velocities of the bodies there.
+template <int Dim>
+void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t block);
+
+/// After the step: which components they were. Serial.
+template <int Dim>
+void remember_rigid_conditions(State<Dim>& state, const Model<Dim>& model);
 
 /// Takes the normal momentum from nodes on symmetry planes, where mirror images meet. Own nodes of one block.
 template <int Dim>

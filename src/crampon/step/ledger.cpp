@@ -22,10 +22,9 @@ void evaluate_loads(const State<Dim>& state, const Model<Dim>& model, std::vecto
 template <int Dim, class Shape>
 void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
   using T = Tile<Dim, Shape>;
-  if (state.step != 0 || state.cracks.empty() || model.contact.detection != ContactDetection::volume ||
-      model.contact.reference_volume != ReferenceVolume::initial) {
-    return;
-  }
+  const bool by_volume = (!state.cracks.empty() && model.contact.detection == ContactDetection::volume) ||
+                         (model.fields.size() > 1 && model.contact.material_detection == MaterialDetection::volume);
+  if (state.step != 0 || !by_volume || model.contact.reference_volume != ReferenceVolume::initial) return;
   std::int64_t total = 1;
   for (int k = 0; k < Dim; ++k) total *= std::int64_t{model.grid.blocks[k]} * block_side;
   state.initial_volume.assign(static_cast<std::size_t>(total), 0.);
@@ -49,6 +48,7 @@ void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
 template <int Dim>
 void close_ledger(State<Dim>& state, const Model<Dim>& model) {
   state.reactions.assign(model.conditions.size(), {});
+  state.rigid_reactions.assign(model.rigid_bodies.size(), {});
   std::int64_t unsolved = 0, crowded = 0;
   for (auto& scratch : state.scratch) {
     BlockLedger<Dim>& ledger = scratch.ledger;
@@ -57,7 +57,12 @@ void close_ledger(State<Dim>& state, const Model<Dim>& model) {
     state.energy.boundary_work += ledger.boundary_work;
     state.energy.damping += ledger.damping;
     state.energy.contact_loss += ledger.contact_loss;
+    state.energy.friction_loss += ledger.friction_loss;
     for (const auto& r : ledger.reactions) state.reactions[r.condition] += r.force;
+    for (const auto& r : ledger.rigid) {
+      state.rigid_reactions[r.body].force += r.on_material.force;
+      state.rigid_reactions[r.body].torque += r.on_material.torque;
+    }
     unsolved += ledger.unsolved_nodes;
     crowded += ledger.crowded_nodes;
     if (scratch.health.left_margin) state.must_reorder = true;
@@ -73,6 +78,7 @@ ParticleSums<Dim> sum_particles(const State<Dim>& state, const Model<Dim>& model
   const Particles<Dim>& particles = state.particles;
   parallel_for(parts.size(), model.threads, [&](std::size_t r) {
     const Run& run = state.blocks.runs[r];
+    if (model.is_rigid(model.materials[run.material].field)) return;  // its mass is a volume
     ParticleSums<Dim>& sum = parts[r];
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
       const PackReport report = model.materials[run.material].law->report(model.stress_state, Dim, &particles.stress[k * stress_size<Dim>],

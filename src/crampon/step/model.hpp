@@ -3,10 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "crampon/contact/law.hpp"
+#include "crampon/contact/separation.hpp"
+#include "crampon/contact/wall.hpp"
 #include "crampon/core/function.hpp"
 #include "crampon/core/options.hpp"
 #include "crampon/crack/symmetry_fold.hpp"
@@ -26,6 +29,28 @@ struct Material {
   std::uint16_t field = 0;    ///< material field (N13 sec. 1.2)
 };
 
+/// A velocity field of its own (N13 sec. 1.2): of one material, of one body, or of a group that the input names.
+struct MaterialField {
+  std::string name;
+  bool rigid = false;    ///< of a rigid body: masses on its nodes are volumes, 1 kg/m3
+  int body = -1;         ///< rigid: index into Model::rigid_bodies
+  double thickness = 1;  ///< m, 2D
+  EdgeMap edge;          ///< from the mean position of its particles about a node to its edge
+};
+
+/// A body that moves as prescribed (N13 sec. 3, rigid materials).
+template <int Dim>
+struct RigidBody {
+  std::string name;
+  std::vector<ValueFunction> velocity;  ///< of its centre, per component, m/s; of time; empty: none
+  std::vector<ValueFunction> spin;      ///< about its centre, rad/s: one in 2D, three in 3D; of time; empty: none
+  Vec<Dim> centre;                      ///< at the start, m
+  std::optional<Wall<Dim>> wall;        ///< it is this, and has no particles
+  std::uint16_t field = 0;              ///< its velocity field
+  bool prescribes = false;              ///< gives its velocity to the nodes that it reaches, instead of meeting what is there
+  std::uint16_t condition = 0;          ///< ... as this condition, whose components say which
+};
+
 /// Velocity prescribed on nodes, or a symmetry plane.
 template <int Dim>
 struct VelocityCondition {
@@ -38,6 +63,7 @@ struct VelocityCondition {
   std::vector<std::int64_t> nodes;  ///< node numbers (Grid::node_number), ascending
   double start = 0, end = 0;        ///< s
   bool symmetry = false;            ///< normal momentum and force are zero (CONVENTIONS 29)
+  int rigid_body = -1;              ///< that prescribes it; its nodes are found anew in each step
 };
 
 /// Forces on particles, by particle id: value(t) times the particle's share, N.
@@ -54,7 +80,10 @@ struct Model {
   Grid<Dim> grid;
   StressState stress_state = StressState::plane_strain;
   std::vector<Material<Dim>> materials;
-  int fields = 1;  ///< material velocity fields (N13 sec. 1.2)
+  std::vector<MaterialField> fields{1};
+  std::vector<ContactLawSpec> field_laws{1};  ///< [field][field], symmetric
+  std::vector<Vec<Dim>> field_normals{1};     ///< [field][field]: normal from the first to the second; zero: to be found
+  std::vector<RigidBody<Dim>> rigid_bodies;
   std::vector<std::string> bodies;
   std::vector<ContactLawSpec> crack_laws;  ///< per crack
   std::vector<VelocityCondition<Dim>> conditions;
@@ -77,10 +106,19 @@ struct Model {
     double volume_separated = 0.9, volume_contact = 1.1;  ///< V_sep, V_contact (N03 section 2.2)
     bool require_approach = true;                         ///< also above V_contact (CONVENTIONS 6)
     double mass_screen = 1e-6;                            ///< CONVENTIONS 37
+    MaterialDetection material_detection = MaterialDetection::position;
+    ContactNormal normal = ContactNormal::logistic_regression;
+    double rigid_bias = 10;  ///< a rigid body's gradient is taken unless it is smaller by more than this
+    SeveralMaterials several_materials = SeveralMaterials::pairwise;
   } contact;
   int threads = 1;
 
   bool any_body_force() const { return !body_force.empty(); }
+  bool any_contact() const { return fields.size() > 1 || !crack_laws.empty(); }
+  const ContactLawSpec& law_between(int a, int b) const {
+    return field_laws[static_cast<std::size_t>(a) * fields.size() + static_cast<std::size_t>(b)];
+  }
+  bool is_rigid(std::uint16_t field) const { return fields[field].rigid; }
 };
 
 }  // namespace crampon

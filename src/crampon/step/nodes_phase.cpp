@@ -3,6 +3,7 @@
 #include "crampon/step/adjust_contact.hpp"
 #include "crampon/step/assemble.hpp"
 #include "crampon/step/boundary.hpp"
+#include "crampon/step/find_contacts.hpp"
 #include "crampon/step/instantiate.hpp"
 
 namespace crampon {
@@ -25,7 +26,7 @@ void assemble_momentum(State<Dim>& state, std::size_t b) {
 template <int Dim, class Shape>
 void assemble_contact_sums(State<Dim>& state, std::size_t b) {
   const BlockLayers<Dim>& layers = state.nodes.layers[b];
-  if (layers.node.size() < 2) return;
+  if (layers.node.size() < 2 && !layers.near_wall) return;
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
     assemble_layer<Dim, Shape>(state, b, layers.node[l], state.nodes.tile_contact, &state.nodes.contact[first_node_of(state, b, l)], true);
   }
@@ -59,15 +60,27 @@ void find_velocities(State<Dim>& state, std::size_t b) {
   }
 }
 
+/// f(slot of a node) for the own nodes of a block in all fields but those of rigid bodies.
+template <int Dim, class F>
+void for_deformable(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F f) {
+  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    if (model.is_rigid(layers.node[l].field)) continue;
+    const std::size_t first = first_node_of(state, b, l);
+    for (std::size_t i = first; i < first + block_nodes<Dim>; ++i) f(i);
+  }
+}
+
 }  // namespace
 
 template <int Dim, class Shape>
 void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
   assemble_momentum<Dim, Shape>(state, b);
-  if (!state.cracks.empty() || model.fields > 1) {
+  if (model.any_contact()) {
     assemble_contact_sums<Dim, Shape>(state, b);
-    find_contacts(state, model, b);
+    find_contacts<Dim, Shape>(state, model, b);
   }
+  if (!model.rigid_bodies.empty()) prescribe_by_rigid(state, model, b);
   impose_symmetry(state, model, b);
   if (model.boundary_order == BoundaryOrder::contact_first) {
     adjust_contact(state, model, b, ContactTask::two, dt);  // N13 sec. 2.3
@@ -93,11 +106,11 @@ void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, d
   }
   if (accounts) {
     start_velocity.resize(end - first);
-    for (std::size_t i = first; i < end; ++i) {
+    for_deformable(state, model, b, [&](std::size_t i) {
       const Pack p = nodes.momentum[i];
       nodes.force[i] += splat_as<NodalVector<Dim>>(p[Dim]) * gravity - splat_as<NodalVector<Dim>>(damping) * leading<Dim>(p);
       start_velocity[i - first] = nodes.velocity[i];
-    }
+    });
   }
   impose_forces(state, model, b, dt);
   for (std::size_t i = first; i < end; ++i) {
@@ -119,14 +132,14 @@ void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, d
   }
   if (!accounts) return;
   BlockLedger<Dim>& ledger = state.scratch[b].ledger;
-  for (std::size_t i = first; i < end; ++i) {
+  for_deformable(state, model, b, [&](std::size_t i) {
     const double m = nodes.momentum[i][Dim];
     const NodalVector<Dim> v = 0.5 * (start_velocity[i - first] + nodes.velocity[i]);
     for (int k = 0; k < Dim; ++k) {
       ledger.body_work += dt * m * gravity[k] * v[k];
       ledger.damping += dt * damping * m * start_velocity[i - first][k] * v[k];
     }
-  }
+  });
 }
 
 template <int Dim, class Shape>

@@ -20,14 +20,43 @@ void project_momentum(State<Dim>& state, const Model<Dim>& model, std::size_t b)
                         });
 }
 
+namespace {
+
+/// What one particle adds to the contact sums of a node, before S_ip; the volume's gradient apart.
+template <int Dim>
+void add_contact_share(const Model<Dim>& model, const IndexVector<Dim>& node, double S, const Vec<Dim>& G, double m_p, double V_p,
+                       const Vec<Dim>& x_p, const Vec<Dim>& X_p, unsigned flip, ContactSums<Dim>& q) {
+  Pack now = splat(0.), start = splat(0.);
+  now[0] = V_p;
+  Vec<Dim> g = G * V_p;
+  for (int k = 0; k < Dim; ++k) {
+    const double x_i = model.grid.node_coordinate(k, node[k]);
+    const bool mirrored = flip >> k & 1u;
+    const double sign = mirrored ? -m_p : m_p;
+    now[1 + k] = sign * (x_p[k] - x_i);
+    start[1 + k] = sign * (X_p[k] - x_i);
+    if (mirrored) g[k] = -g[k];
+  }
+  q.r[0] = fused(splat(S), now, q.r[0]);
+  q.r[1] = fused(splat(S), start, q.r[1]);
+  if constexpr (Dim == 2) {
+    q.r[0][3] += g[0];
+    q.r[1][0] += g[1];
+  } else {
+    for (int k = 0; k < 3; ++k) q.r[2][k] += g[k];
+  }
+}
+
+}  // namespace
+
 template <int Dim, class Shape>
 void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   using T = Tile<Dim, Shape>;
   if (!state.blocks.list[b].has_particles() || !state.nodes.layers[b].sums_contact) return;
-  ContactSums* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_contact);
+  ContactSums<Dim>* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_contact);
   const Particles<Dim>& particles = state.particles;
   const auto first_node = state.blocks.list[b].first_node();
-  const bool volumes = model.contact.detection == ContactDetection::volume;
+  const bool volumes = model.contact.detection == ContactDetection::volume || model.fields.size() > 1;
   for_packs<Dim, Shape>(
       state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
         const Material<Dim>& material = model.materials[run.material];
@@ -47,18 +76,13 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
             const PairTarget t = targets ? targets[l * T::stencil + n]
                                          : PairTarget{static_cast<std::uint16_t>(stencil.lowest(l) + T::steps[n]),
                                                       static_cast<std::uint8_t>(stencil.layer), 0};
-            const auto step = unflatten<Dim>(n, Shape::width);
-            Pack now = splat(0.), start = splat(0.);
-            now[0] = volume[l];
+            IndexVector<Dim> node = unflatten<Dim>(n, Shape::width);
+            Vec<Dim> G;
             for (int k = 0; k < Dim; ++k) {
-              const double x_i = model.grid.node_coordinate(k, lowest[k] + step[k] + first_node[k] - T::offset);
-              const double sign = t.flip >> k & 1u ? -m_p : m_p;
-              now[1 + k] = sign * (x_p[k] - x_i);
-              start[k] = sign * (X_p[k] - x_i);
+              node[k] += lowest[k] + first_node[k] - T::offset;
+              G[k] = stencil.G[n][k][l];
             }
-            ContactSums& q = tiles[t.layer * T::nodes + t.node];
-            q.r[0] = fused(splat(stencil.S[n][l]), now, q.r[0]);
-            q.r[1] = fused(splat(stencil.S[n][l]), start, q.r[1]);
+            add_contact_share<Dim>(model, node, stencil.S[n][l], G, m_p, volume[l], x_p, X_p, t.flip, tiles[t.layer * T::nodes + t.node]);
           }
         }
       });
@@ -85,14 +109,38 @@ void project_loads(const State<Dim>& state, const Model<Dim>& model, std::size_t
       });
 }
 
+/// Rigid particles carry the force that takes them from the old velocity to the new one: their nodes then move as prescribed in Task 4.
+template <int Dim, class Shape>
+void project_rigid_motion(const State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, NodalVector<Dim>* tiles) {
+  using T = Tile<Dim, Shape>;
+  for_packs<Dim, Shape>(state, model, b,
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+                          const MaterialField& field = model.fields[model.materials[run.material].field];
+                          if (!field.rigid) return;
+                          const RigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(field.body)];
+                          for (int l = 0; l < lanes; ++l) {
+                            const std::size_t p = std::size_t{pack} * lanes + l;
+                            const Vec<Dim> x = state.particles.position(p);
+                            const Vec<Dim> f = (motion.end.velocity_at(x) - motion.start.velocity_at(x)) * (state.particles.mass(p) / dt);
+                            NodalVector<Dim> f_p = splat_as<NodalVector<Dim>>(0.);
+                            for (int k = 0; k < Dim; ++k) f_p[k] = f[k];
+                            for (int n = 0; n < T::stencil; ++n) {
+                              const PairTarget* t = targets ? &targets[l * T::stencil + n] : nullptr;
+                              NodalVector<Dim>& q = tiles[t ? t->layer * T::nodes + t->node : stencil.base[l] + T::steps[n]];
+                              q = fused(splat_as<NodalVector<Dim>>(stencil.S[n][l]), flipped(f_p, t ? t->flip : 0u), q);
+                            }
+                          }
+                        });
+}
+
 /// Nodes add body force to all their mass; what folded pairs brought them is a mirror image, on which it acts mirrored (CONVENTIONS 29).
 template <int Dim, class Shape>
 void mirror_body_force(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const Vec<Dim>& body_force,
                        NodalVector<Dim>* tiles) {
   using T = Tile<Dim, Shape>;
   for_packs<Dim, Shape>(state, model, b,
-                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
-                          if (!targets) return;
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+                          if (!targets || model.is_rigid(model.materials[run.material].field)) return;
                           for (int l = 0; l < lanes; ++l) {
                             const double m_p = state.particles.mass(std::size_t{pack} * lanes + l);
                             for (int n = 0; n < T::stencil; ++n) {
@@ -108,7 +156,7 @@ void mirror_body_force(const State<Dim>& state, const Model<Dim>& model, std::si
 }  // namespace
 
 template <int Dim, class Shape>
-void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, double stress_dt,
+void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, double stress_dt,
                                       const std::vector<Vec<Dim>>& load_values, const Vec<Dim>& body_force) {
   if (!state.blocks.list[b].has_particles()) return;
   NodalVector<Dim>* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_force);
@@ -125,14 +173,15 @@ void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model
                             project(pack, stencil, targets);
                           });
   }
+  if (!model.rigid_bodies.empty()) project_rigid_motion<Dim, Shape>(state, model, b, dt, tiles);
   if (!state.scratch[b].loaded.empty()) project_loads<Dim, Shape>(state, model, b, load_values, tiles);
   if (model.any_body_force() && !model.symmetries.empty()) mirror_body_force<Dim, Shape>(state, model, b, body_force, tiles);
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                           \
-  template void project_momentum<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                        \
-  template void project_contact_sums<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                    \
-  template void update_stress_and_project_forces<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, \
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                   \
+  template void project_momentum<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                                \
+  template void project_contact_sums<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                            \
+  template void update_stress_and_project_forces<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, \
                                                              const std::vector<Vec<DIM>>&, const Vec<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE

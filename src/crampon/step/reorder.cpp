@@ -5,6 +5,7 @@
 
 #include "crampon/core/error.hpp"
 #include "crampon/core/parallel.hpp"
+#include "crampon/step/boundary.hpp"
 #include "crampon/step/instantiate.hpp"
 
 namespace crampon {
@@ -142,11 +143,7 @@ void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
       }
     }
   }
-  for (auto& scratch : state.scratch) {
-    std::stable_sort(scratch.fixed.begin(), scratch.fixed.end(), [](const FixedComponent& a, const FixedComponent& b) {
-      return std::pair{a.node, a.axis} < std::pair{b.node, b.axis};
-    });
-  }
+  for (auto& scratch : state.scratch) sort_by_component(scratch.fixed);
 
   if (model.loads.empty()) return;
   std::vector<std::uint32_t> slot_of_id(state.particle_count + static_cast<std::size_t>(state.removed), padding_id);

@@ -13,6 +13,7 @@
 #include "crampon/state/cracks.hpp"
 #include "crampon/state/nodes.hpp"
 #include "crampon/state/particles.hpp"
+#include "crampon/state/rigid.hpp"
 
 namespace crampon {
 
@@ -37,17 +38,23 @@ struct LoadedParticle {
 /// Sums of one block over one step; added up in block order, so that they do not depend on threads.
 template <int Dim>
 struct BlockLedger {
-  double load_work = 0, body_work = 0, damping = 0, contact_loss = 0, boundary_work = 0;  ///< J
+  double load_work = 0, body_work = 0, damping = 0, contact_loss = 0, friction_loss = 0, boundary_work = 0;  ///< J
   struct Reaction {
     std::uint16_t condition;
     Vec<Dim> force;
   };
   std::vector<Reaction> reactions;  ///< N
-  int unsolved_nodes = 0;           ///< contact at a node did not converge
-  int crowded_nodes = 0;            ///< nodes with more than two cracks
+  struct BodyReaction {
+    std::uint16_t body;
+    RigidReaction<Dim> on_material;
+  };
+  std::vector<BodyReaction> rigid;
+  int unsolved_nodes = 0;  ///< contact at a node did not converge
+  int crowded_nodes = 0;   ///< nodes with more than two cracks
   void clear() {
-    load_work = body_work = damping = contact_loss = boundary_work = 0;
+    load_work = body_work = damping = contact_loss = friction_loss = boundary_work = 0;
     reactions.clear();
+    rigid.clear();
     unsolved_nodes = crowded_nodes = 0;
   }
 };
@@ -64,7 +71,7 @@ struct BlockHealth {
 
 /// Energy totals since the start, J.
 struct EnergyTotals {
-  double load_work = 0, body_work = 0, boundary_work = 0, damping = 0, contact_loss = 0;
+  double load_work = 0, body_work = 0, boundary_work = 0, damping = 0, contact_loss = 0, friction_loss = 0;
 };
 
 /// Per block, per step: what belongs to nodes with conditions or contact.
@@ -93,6 +100,9 @@ struct State {
   Nodes<Dim> nodes;
   std::vector<BlockScratch<Dim>> scratch;  ///< per block
   ContactMemory memory;
+  std::vector<RigidMotion<Dim>> rigid;              ///< per rigid body
+  std::vector<RigidReaction<Dim>> rigid_reactions;  ///< per rigid body, last step
+  std::vector<std::int64_t> prescribed_by_rigid;    ///< node number * Dim + axis, ascending: last step
   std::vector<bool> condition_was_active;
   std::vector<double> initial_volume;  ///< per node number: volume of the uncut body at the start, m2 or m3 (CONVENTIONS 10)
   bool must_reorder = true;

@@ -2,6 +2,7 @@
 
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/reorder.hpp"
+#include "crampon/step/rigid_motion.hpp"
 #include "crampon/step/stress_pass.hpp"
 #include "crampon/step/tile_buffer.hpp"
 
@@ -104,6 +105,11 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
                             move(pack, stencil, targets);
                           });
   }
+  if (!model.rigid_bodies.empty()) {
+    place_rigid_particles(state, model, b, [&](const Vec<Dim>& x) {
+      for (int k = 0; k < Dim; ++k) low[k] = std::fmin(low[k], x[k]), high[k] = std::fmax(high[k], x[k]);
+    });
+  }
   BlockHealth& health = state.scratch[b].health;
   for (int l = 0; l < lanes; ++l) {
     if (check[l] != 0) health.bad_number = true;
@@ -132,7 +138,8 @@ void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
                          });
   if (!mirrors) return;
   for_packs<Dim, Shape>(state, model, b,
-                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+                          if (model.is_rigid(model.materials[run.material].field)) return;
                           for (int l = 0; l < lanes && targets; ++l) {
                             const double m_p = state.particles.mass(std::size_t{pack} * lanes + l);
                             for_stencil<Dim, Shape>(stencil, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {

@@ -1,0 +1,115 @@
+#include "crampon/run/build_contact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "crampon/core/closest_name.hpp"
+#include "crampon/step/rigid_motion.hpp"
+
+namespace crampon {
+
+namespace {
+
+/// The fields that a name in a contact pair stands for: a field of that name, that of a body, or those of all bodies of a material.
+template <int Dim>
+std::vector<std::size_t> fields_named(const Problem& problem, const Model<Dim>& model, const std::string& name) {
+  std::vector<std::size_t> out;
+  const auto add = [&](const std::string& field) {
+    for (std::size_t f = 0; f < model.fields.size(); ++f) {
+      if (model.fields[f].name == field && std::find(out.begin(), out.end(), f) == out.end()) out.push_back(f);
+    }
+  };
+  add(name);
+  for (const BodyInput& body : problem.bodies) {
+    if (body.name != name && body.material != name) continue;
+    add(body.field                                      ? *body.field
+        : problem.contact.fields == FieldsOf::bodies    ? body.name
+        : problem.contact.fields == FieldsOf::materials ? body.material
+                                                        : "");
+  }
+  return out;
+}
+
+template <int Dim>
+std::vector<std::string> names_about(const Problem& problem, const Model<Dim>& model) {
+  std::vector<std::string> names;
+  for (const MaterialField& field : model.fields) {
+    if (!field.name.empty()) names.push_back(field.name);
+  }
+  for (const BodyInput& body : problem.bodies) names.push_back(body.name), names.push_back(body.material);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+template <int Dim>
+void set_pair(const ContactPairInput& in, std::size_t a, std::size_t b, Model<Dim>& model) {
+  const std::size_t n = model.fields.size();
+  model.field_laws[a * n + b] = model.field_laws[b * n + a] = in.contact;
+  Vec<Dim> normal;
+  for (std::size_t k = 0; k < in.normal.size() && k < Dim; ++k) normal[k] = in.normal[k];
+  model.field_normals[a * n + b] = normalized(normal);
+  model.field_normals[b * n + a] = -normalized(normal);
+}
+
+template <int Dim>
+void add_pair(const Problem& problem, const ContactPairInput& in, Model<Dim>& model, std::vector<Diagnostic>& errors) {
+  std::vector<std::size_t> sides[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    sides[k] = fields_named(problem, model, in.between[k]);
+    if (!sides[k].empty()) continue;
+    errors.push_back({in.at(fmt::format("between[{}]", k)), fmt::format("nothing is called \"{}\"", in.between[k]),
+                      "a pair names bodies, rigid bodies, walls, materials or fields",
+                      suggest_from(in.between[k], names_about(problem, model))});
+  }
+  bool any = false;
+  for (const std::size_t a : sides[0]) {
+    for (const std::size_t b : sides[1]) {
+      if (a != b) set_pair(in, a, b, model), any = true;
+    }
+  }
+  if (any || sides[0].empty() || sides[1].empty()) return;
+  errors.push_back({in.at("between"), fmt::format("\"{}\" and \"{}\" share a velocity field", in.between[0], in.between[1]),
+                    "bodies of one field stick to each other",
+                    "set contact.fields to \"materials\" or \"bodies\", or give bodies a field"});
+}
+
+/// The condition through which a rigid body prescribes velocities; its nodes are found in every step.
+template <int Dim>
+void add_condition(const RigidInput& in, std::size_t body, Model<Dim>& model) {
+  VelocityCondition<Dim> c;
+  c.name = in.name;
+  c.rigid_body = static_cast<int>(body);
+  c.end = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < Dim; ++k) {
+    const std::string axis(1, "xyz"[k]);
+    if (in.components.empty() || std::find(in.components.begin(), in.components.end(), axis) != in.components.end())
+      c.components.push_back({k, ValueFunction()});
+  }
+  model.rigid_bodies[body].condition = static_cast<std::uint16_t>(model.conditions.size());
+  model.conditions.push_back(std::move(c));
+}
+
+}  // namespace
+
+template <int Dim>
+void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state, std::vector<Diagnostic>& errors) {
+  const std::size_t n = model.fields.size();
+  model.field_laws.assign(n * n, problem.contact.between_fields);
+  model.field_normals.assign(n * n, Vec<Dim>{});
+  for (const ContactPairInput& in : problem.contact_pairs) add_pair(problem, in, model, errors);
+  for (std::size_t r = 0; r < problem.rigids.size(); ++r) {
+    if (model.rigid_bodies[r].prescribes) add_condition(problem.rigids[r], r, model);
+  }
+  state.rigid.resize(model.rigid_bodies.size());
+  for (std::size_t r = 0; r < state.rigid.size(); ++r) state.rigid[r].start.centre = model.rigid_bodies[r].centre;
+  start_rigid_motion(state, model, 0);
+  for (RigidMotion<Dim>& motion : state.rigid) motion.end = motion.start;
+}
+
+template void build_contact<2>(const Problem&, Model<2>&, State<2>&, std::vector<Diagnostic>&);
+template void build_contact<3>(const Problem&, Model<3>&, State<3>&, std::vector<Diagnostic>&);
+
+}  // namespace crampon

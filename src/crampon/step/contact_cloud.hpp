@@ -1,0 +1,34 @@
+#pragma once
+/// The particles about nodes where materials meet, one by one: what regressions for normals and gaps start from (N13 sec. 3 step 1).
+
+#include <vector>
+
+#include "crampon/core/vector.hpp"
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// A particle that has a part in a node (S_ip != 0).
+template <int Dim>
+struct CloudPoint {
+  int layer = 0;                           ///< of the node's block
+  GroupSet group = 0;                      ///< at the node; set by who knows the groups
+  Vec<Dim> x;                              ///< from the node, m; of a folded pair the mirror image
+  std::array<Vec<Dim>, Dim> half_edges{};  ///< of the deformed particle, m
+};
+
+/// Particles by own node of a block, in the order of tiles and packs, so that sums over them do not depend on threads.
+template <int Dim>
+class ContactCloud {
+ public:
+  /// Collects what reaches the nodes for which wanted[node] holds.
+  template <class Shape>
+  void collect(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<bool>& wanted);
+  std::vector<CloudPoint<Dim>>& at(int node) { return points_[static_cast<std::size_t>(node)]; }
+
+ private:
+  std::vector<std::vector<CloudPoint<Dim>>> points_{block_nodes<Dim>};
+};
+
+}  // namespace crampon

@@ -1,0 +1,180 @@
+#include "crampon/step/face_to_face.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "crampon/contact/friction.hpp"
+#include "crampon/contact/separation.hpp"
+
+namespace crampon {
+
+namespace {
+
+/// f(point, side) for the particles of both faces about a node.
+template <int Dim, class F>
+void for_points(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, F f) {
+  for (const CloudPoint<Dim>& point : *place.points) {
+    if (a.groups & point.group) f(point, ContactSide::a);
+    if (b.groups & point.group) f(point, ContactSide::b);
+  }
+}
+
+/// x_b - x_a in the mean, and the same at the start.
+template <int Dim>
+Vec<Dim> apart(const Face<Dim>& a, const Face<Dim>& b) {
+  return b.x * (1 / b.m) - a.x * (1 / a.m);
+}
+template <int Dim>
+Vec<Dim> apart_at_start(const Face<Dim>& a, const Face<Dim>& b) {
+  return b.X * (1 / b.m) - a.X * (1 / a.m);
+}
+
+}  // namespace
+
+template <int Dim>
+FaceToFace<Dim>::FaceToFace(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {
+  cracks_have_areas_ = std::any_of(model.crack_laws.begin(), model.crack_laws.end(), needs_area);
+}
+
+template <int Dim>
+void FaceToFace<Dim>::drop_mirrored(std::int64_t number, Vec<Dim>& n) const {
+  for (const VelocityCondition<Dim>& c : model_.conditions) {
+    if (c.symmetry && std::binary_search(c.nodes.begin(), c.nodes.end(), number)) n[c.components.front().axis] = 0;
+  }
+}
+
+template <int Dim>
+bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const Face<Dim>& facing,
+                                   ContactPair<Dim>& pair) {
+  Vec<Dim> n = model_.field_normals[std::size_t{a.field} * model_.fields.size() + facing.field];
+  if (n == Vec<Dim>{}) n = found_normal(place, a, facing);
+  drop_mirrored(place.number, n);
+  pair.n = normalized(n);
+  if (pair.n == Vec<Dim>{}) return false;
+  const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
+  pair.volume_ratio = relative_volume(place);
+  pair.gap = material_gap(place, a, b, pair, plane);
+  if (needs_area(*pair.law)) pair.area = area_between(a, b, plane);
+  return true;
+}
+
+template <int Dim>
+bool FaceToFace<Dim>::see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const {
+  const auto body = static_cast<std::size_t>(b.wall);
+  const WallView<Dim> view = model_.rigid_bodies[body].wall->seen_from(place.x, state_.rigid[body].start.centre);
+  Vec<Dim> n = -view.out;
+  drop_mirrored(place.number, n);
+  pair.n = normalized(n);
+  if (pair.n == Vec<Dim>{}) return false;
+  const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
+  const EdgeMap& edge = model_.fields[a.field].edge;
+  const double d = edge.edge_distance(-dot(a.x, pair.n) / (a.m * plane.h), plane);
+  pair.gap = d * plane.h + view.distance;
+  // The wall's face is as wide as the material's edge.
+  if (needs_area(*pair.law)) pair.area = edge.area_at(d, plane) * cell_volume() / plane.h * thickness(a, b);
+  return true;
+}
+
+template <int Dim>
+bool FaceToFace<Dim>::see_across(const MeetingPlace<Dim>& place, const CrackAtNode<Dim>& crack, const Face<Dim>& a, const Face<Dim>& b,
+                                 ContactPair<Dim>& pair) const {
+  if (crack.side == 0 || crack.n == Vec<Dim>{}) return false;
+  pair.n = crack.n;
+  // Zero for a closed, undeformed crack at any place and turn.
+  pair.gap = dot(apart(a, b), crack.n) - dot(apart_at_start(a, b), crack.N);
+  pair.volume_ratio = relative_volume(place);
+  if (model_.contact.detection == ContactDetection::volume && model_.contact.scheme == ContactScheme::consistent)
+    pair.gap = gap_by_volume(pair.volume_ratio);
+  if (cracks_have_areas_) pair.area = area_between(a, b, plane_in_cells(model_.grid.cell, pair.n));
+  return true;
+}
+
+template <int Dim>
+double FaceToFace<Dim>::cell_volume() const {
+  double volume = 1;
+  for (int k = 0; k < Dim; ++k) volume *= model_.grid.cell[k];
+  return volume;
+}
+
+template <int Dim>
+double FaceToFace<Dim>::thickness(const Face<Dim>& a, const Face<Dim>& b) const {
+  return std::fmin(model_.fields[a.field].thickness, model_.fields[b.field].thickness);
+}
+
+template <int Dim>
+double FaceToFace<Dim>::area_between(const Face<Dim>& a, const Face<Dim>& b, const PlaneInCells& plane) const {
+  return contact_area(a.volume, model_.fields[a.field].edge, b.volume, model_.fields[b.field].edge, plane) * thickness(a, b);
+}
+
+template <int Dim>
+double FaceToFace<Dim>::relative_volume(const MeetingPlace<Dim>& place) const {
+  double reference = cell_volume();
+  if (model_.contact.reference_volume == ReferenceVolume::initial && !state_.initial_volume.empty()) {
+    const double initial = state_.initial_volume[static_cast<std::size_t>(place.number)];
+    if (initial > 0) reference = initial;
+  }
+  return place.volume / reference;
+}
+
+/// The lagged scheme asks for a gap: by volume there is one, of unknown size, below V_sep, and none above.
+template <int Dim>
+double FaceToFace<Dim>::gap_by_volume(double volume_ratio) const {
+  return volume_ratio < model_.contact.volume_separated ? std::numeric_limits<double>::max() : 0.;
+}
+
+template <int Dim>
+double FaceToFace<Dim>::material_gap(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const ContactPair<Dim>& pair,
+                                     const PlaneInCells& plane) const {
+  switch (model_.contact.material_detection) {
+    case MaterialDetection::position:
+      return position_gap(dot(a.x, pair.n) / a.m, model_.fields[a.field].edge, dot(b.x, pair.n) / b.m, model_.fields[b.field].edge, plane);
+    case MaterialDetection::regression: {
+      RegressionGap<Dim> gap(pair.n);
+      for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) { gap.add(point.x, point.half_edges, side); });
+      return gap.gap();
+    }
+    case MaterialDetection::displacement:
+      return dot(apart(a, b) - apart_at_start(a, b), pair.n);
+    case MaterialDetection::volume:
+      break;
+  }
+  return gap_by_volume(pair.volume_ratio);
+}
+
+template <int Dim>
+Vec<Dim> FaceToFace<Dim>::found_normal(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b) {
+  GradientNormal gradient = GradientNormal::largest_gradient;
+  switch (model_.contact.normal) {
+    case ContactNormal::logistic_regression:
+    case ContactNormal::linear_regression: {
+      labelled_.clear();
+      for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) {
+        LabelledPoint<Dim> labelled;
+        for (int k = 0; k < Dim; ++k) labelled.x[k] = point.x[k] * model_.grid.inverse_cell[k];
+        labelled.side = side;
+        labelled_.push_back(labelled);
+      });
+      std::optional<Vec<Dim>> n;
+      if (model_.contact.normal == ContactNormal::logistic_regression) n = logistic_regression_normal<Dim>(labelled_, model_.grid.cell);
+      if (!n) n = linear_regression_normal<Dim>(labelled_, model_.grid.cell);
+      if (n) return *n;
+      break;  // too few particles: a gradient
+    }
+    case ContactNormal::average_gradient:
+      gradient = GradientNormal::average;
+      break;
+    case ContactNormal::more_volume:
+      gradient = GradientNormal::more_volume;
+      break;
+    case ContactNormal::largest_gradient:
+      break;
+  }
+  return gradient_normal<Dim>(gradient, {a.g, a.volume, a.rigid}, {b.g, b.volume, b.rigid}, model_.contact.rigid_bias);
+}
+
+template class FaceToFace<2>;
+template class FaceToFace<3>;
+
+}  // namespace crampon

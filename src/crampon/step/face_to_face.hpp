@@ -1,0 +1,89 @@
+#pragma once
+/// How two fields of a node face each other: normal, gap and area (N13 sec. 3 step 1; docs/theory/contact.md, detection and normals).
+
+#include <vector>
+
+#include "crampon/contact/node_solve.hpp"
+#include "crampon/contact/normal.hpp"
+#include "crampon/step/contact_cloud.hpp"
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// What Task 1 left at a node about one crack: unit normals now and at the start, and the side of the particles across.
+template <int Dim>
+struct CrackAtNode {
+  CrackId crack = 0;
+  Vec<Dim> n, N;
+  double side = 0;
+};
+
+/// One group, or all deformable ones on the same sides of all cracks, with what Task 1 left of them.
+template <int Dim>
+struct Face {
+  GroupSet groups = 0;
+  Signature cracks;
+  double m = 0;             ///< kg; of rigid bodies the volume
+  double volume = 0;        ///< m3; in 2D m2
+  Vec<Dim> x, X, g;         ///< sums of m (x - x_i), m (X - x_i), V_p G_ip
+  std::uint16_t field = 0;  ///< the one with most volume: its laws hold
+  double field_volume = -1;
+  bool rigid = false;
+  int wall = -1;  ///< rigid body that it is, and a wall
+
+  void add(const Face& b) {
+    groups |= b.groups;
+    m += b.m;
+    volume += b.volume;
+    x += b.x;
+    X += b.X;
+    g += b.g;
+    if (b.field_volume > field_volume) field = b.field, field_volume = b.field_volume;
+  }
+};
+
+/// The node at which they meet.
+template <int Dim>
+struct MeetingPlace {
+  std::int64_t number = 0;  ///< in the grid
+  Vec<Dim> x;               ///< m
+  double volume = 0;        ///< of all faces there, m3; in 2D m2
+  const std::vector<CloudPoint<Dim>>* points = nullptr;
+};
+
+template <int Dim>
+class FaceToFace {
+ public:
+  FaceToFace(const State<Dim>& state, const Model<Dim>& model);
+
+  /// On a symmetry plane a surface and its mirror image meet: their mean normal lies in the plane.
+  void drop_mirrored(std::int64_t number, Vec<Dim>& n) const;
+
+  /// These set normal, gap and area of a pair; false when there is no direction: nothing to hold against.
+  /// Materials: `facing` gives law and normal, b itself or the most of what N13's virtual material b is made of.
+  bool see_material(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const Face<Dim>& facing,
+                    ContactPair<Dim>& pair);
+  /// b is a wall, whose surface is known to the bit.
+  bool see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const;
+  /// a above and b below a crack.
+  bool see_across(const MeetingPlace<Dim>& place, const CrackAtNode<Dim>& crack, const Face<Dim>& a, const Face<Dim>& b,
+                  ContactPair<Dim>& pair) const;
+
+ private:
+  double cell_volume() const;
+  double thickness(const Face<Dim>& a, const Face<Dim>& b) const;
+  double area_between(const Face<Dim>& a, const Face<Dim>& b, const PlaneInCells& plane) const;
+  double relative_volume(const MeetingPlace<Dim>& place) const;
+  double gap_by_volume(double volume_ratio) const;
+  double material_gap(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const ContactPair<Dim>& pair,
+                      const PlaneInCells& plane) const;
+  Vec<Dim> found_normal(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b);
+
+  const State<Dim>& state_;
+  const Model<Dim>& model_;
+  bool cracks_have_areas_ = false;  ///< some law across a crack asks for the area
+  std::vector<LabelledPoint<Dim>> labelled_;
+};
+
+}  // namespace crampon

@@ -1,0 +1,407 @@
+#include "crampon/step/find_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "crampon/step/contact_cloud.hpp"
+#include "crampon/step/face_to_face.hpp"
+#include "crampon/step/instantiate.hpp"
+
+namespace crampon {
+
+namespace {
+
+template <int Dim>
+std::size_t nodal_index(const State<Dim>& state, std::size_t b, int layer, int node) {
+  return (std::size_t{state.nodes.layers[b].node_begin} + layer) * block_nodes<Dim> + node;
+}
+
+/// Are fields on both sides one group? One after another, bonded pairs are pairs like others (N13, CONVENTIONS 14).
+template <int Dim>
+bool joins(const Model<Dim>& model, const ContactLawSpec& law) {
+  return std::holds_alternative<BondedContact>(law) && model.contact.pairs == ContactPairs::joint;
+}
+
+/// A signature without the cracks that join: fields of one material that agree in it move as one (CONVENTIONS 13, 14).
+template <int Dim>
+Signature without_joined(const Signature& s, const Model<Dim>& model) {
+  Signature out;
+  for (const CrackId c : s) {
+    if (!joins(model, model.crack_laws[c])) out.append(c);
+  }
+  return out;
+}
+
+/// The one crack by which two signatures differ, or -1.
+std::int64_t only_difference(const Signature& a, const Signature& b) {
+  const Signature& longer = a.size() > b.size() ? a : b;
+  const Signature& shorter = a.size() > b.size() ? b : a;
+  if (longer.size() != shorter.size() + 1) return -1;
+  std::int64_t found = -1;
+  for (const CrackId c : longer) {
+    if (shorter.contains(c)) continue;
+    if (found >= 0) return -1;
+    found = c;
+  }
+  return found;
+}
+
+template <int Dim, class Shape>
+class NodeFinder {
+ public:
+  NodeFinder(State<Dim>& state, const Model<Dim>& model, std::size_t b)
+      : state_(state), model_(model), b_(b), layers_(state.nodes.layers[b]), out_(state.scratch[b].contact), view_(state, model) {}
+
+  void run() {
+    for (int node = 0; node < block_nodes<Dim>; ++node) collect_fields(node);
+    const auto& c = model_.contact;
+    const bool by_regression = c.normal == ContactNormal::logistic_regression || c.normal == ContactNormal::linear_regression;
+    if (model_.fields.size() > 1 && (by_regression || c.material_detection == MaterialDetection::regression)) collect_cloud();
+    for (ContactNode<Dim>& node : out_.nodes) {
+      read_faces(node);
+      collect_cracks(node);
+      node.first_pair = static_cast<std::uint32_t>(out_.pairs.size());
+      pair_materials(node);
+      pair_sides(node);
+      pair_rigid(node);
+      node.end_pair = static_cast<std::uint32_t>(out_.pairs.size());
+    }
+  }
+
+ private:
+  IndexVector<Dim> index_of(int node) const {
+    IndexVector<Dim> i = unflatten<Dim>(node, block_side);
+    const auto first = state_.blocks.list[b_].first_node();
+    for (int k = 0; k < Dim; ++k) i[k] += first[k];
+    return i;
+  }
+  std::int64_t number_of(int node) const { return model_.grid.node_number(index_of(node)); }
+  Vec<Dim> position_of(int node) const { return model_.grid.node_position(index_of(node)); }
+  const Layer& layer(int l) const { return layers_.node[static_cast<std::size_t>(l)]; }
+  bool meets_others(const MaterialField& field) const {
+    return !field.rigid || !model_.rigid_bodies[static_cast<std::size_t>(field.body)].prescribes;
+  }
+
+  /// Fields with mass and the groups that they form.
+  void collect_fields(int node) {
+    std::vector<int>& present = present_;
+    present.clear();
+    for (std::size_t l = 0; l < layers_.node.size(); ++l) {
+      if (state_.nodes.momentum[nodal_index(state_, b_, static_cast<int>(l), node)][Dim] > 0 &&
+          meets_others(model_.fields[layers_.node[l].field]))
+        present.push_back(static_cast<int>(l));
+    }
+    const std::size_t walls = present.empty() ? 0 : walls_about(node);
+    if (present.size() + walls < 2) return;
+    ContactNode<Dim> contact;
+    contact.node = static_cast<std::uint16_t>(node);
+    contact.number = number_of(node);
+    contact.first_field = static_cast<std::uint32_t>(out_.fields.size());
+    contact.first_group = static_cast<std::uint32_t>(out_.groups.size());
+    find_groups(present);
+    for (std::size_t w = 0; w < walls; ++w) {
+      ContactGroup<Dim> group;
+      group.m = 1;
+      group.rigid = group.wall = true;
+      group.body = walls_[w];
+      out_.groups.push_back(group);
+    }
+    contact.end_field = static_cast<std::uint32_t>(out_.fields.size());
+    contact.end_group = static_cast<std::uint32_t>(out_.groups.size());
+    if (contact.end_group - contact.first_group > most_groups) {  // more than any node can make sense of: left alone
+      out_.fields.resize(contact.first_field);
+      out_.groups.resize(contact.first_group);
+      ++state_.scratch[b_].ledger.unsolved_nodes;
+      return;
+    }
+    out_.nodes.push_back(contact);
+  }
+
+  /// Walls that material of this node may touch, into walls_; how many.
+  std::size_t walls_about(int node) {
+    walls_.clear();
+    if (!layers_.near_wall) return 0;
+    const Vec<Dim> x = position_of(node);
+    for (std::size_t body = 0; body < model_.rigid_bodies.size(); ++body) {
+      const auto& wall = model_.rigid_bodies[body].wall;
+      if (wall && wall->seen_from(x, state_.rigid[body].start.centre).distance < wall_reach(model_.grid))
+        walls_.push_back(static_cast<int>(body));
+    }
+    return walls_.size();
+  }
+
+  /// Fields on the same sides of all cracks that do not join are one group when a chain of bonded laws links them.
+  void find_groups(const std::vector<int>& present) {
+    std::vector<int> chain(present.size());
+    std::vector<Signature> reduced;
+    for (std::size_t i = 0; i < present.size(); ++i) {
+      chain[i] = static_cast<int>(i);
+      reduced.push_back(without_joined(layer(present[i]).cracks, model_));
+      for (std::size_t j = 0; j < i; ++j) {
+        const std::uint16_t a = layer(present[j]).field, b = layer(present[i]).field;
+        if (reduced[i] != reduced[j] || chain[i] == chain[j]) continue;
+        const bool bonded = joins(model_, model_.law_between(a, b)) && !model_.is_rigid(a) && !model_.is_rigid(b);
+        if (a != b && !bonded) continue;
+        const int low = std::min(chain[i], chain[j]), high = std::max(chain[i], chain[j]);
+        for (std::size_t k = 0; k <= i; ++k) {
+          if (chain[k] == high) chain[k] = low;
+        }
+      }
+    }
+    std::vector<int> group_of(present.size(), -1);
+    int groups = 0;
+    for (std::size_t i = 0; i < present.size(); ++i) {
+      int& group = group_of[static_cast<std::size_t>(chain[i])];
+      if (group < 0) group = groups++;
+      out_.fields.push_back({present[i], group});
+    }
+    out_.groups.resize(out_.groups.size() + static_cast<std::size_t>(groups));
+  }
+
+  void collect_cloud() {
+    std::vector<bool> wanted(block_nodes<Dim>, false);
+    bool any = false;
+    for (const ContactNode<Dim>& node : out_.nodes) {
+      for (std::uint32_t f = node.first_field + 1; f < node.end_field; ++f) {
+        if (layer(out_.fields[f].layer).field == layer(out_.fields[node.first_field].layer).field) continue;
+        wanted[node.node] = any = true;
+        break;
+      }
+    }
+    if (any) cloud_.template collect<Shape>(state_, model_, b_, wanted);
+  }
+
+  void read_faces(const ContactNode<Dim>& node) {
+    faces_.assign(node.end_group - node.first_group, {});
+    for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
+      const ContactField& field = out_.fields[f];
+      const std::size_t i = nodal_index(state_, b_, field.layer, node.node);
+      const ContactSums<Dim>& sums = state_.nodes.contact[i];
+      Face<Dim> part;
+      part.groups = only(field.group);
+      part.m = state_.nodes.momentum[i][Dim];
+      part.volume = part.field_volume = sums.volume();
+      part.x = sums.present();
+      part.X = sums.original();
+      part.g = sums.gradient();
+      part.field = layer(field.layer).field;
+      Face<Dim>& face = faces_[static_cast<std::size_t>(field.group)];
+      face.cracks = without_joined(layer(field.layer).cracks, model_);
+      face.rigid = model_.is_rigid(part.field);
+      face.add(part);
+      ContactGroup<Dim>& group = out_.groups[node.first_group + static_cast<std::uint32_t>(field.group)];
+      group.m += part.m;
+      group.rigid = face.rigid;
+      group.body = model_.fields[part.field].body;
+    }
+    for (std::size_t g = 0; g < faces_.size(); ++g) {
+      const ContactGroup<Dim>& group = out_.groups[node.first_group + g];
+      if (!group.wall) continue;
+      Face<Dim>& face = faces_[g];
+      face.groups = only(static_cast<int>(g));
+      face.m = 1;
+      face.rigid = true;
+      face.wall = group.body;
+      face.field = model_.rigid_bodies[static_cast<std::size_t>(group.body)].field;
+    }
+    place_ = {node.number, position_of(node.node), 0, &cloud_.at(node.node)};
+    for (const Face<Dim>& face : faces_) place_.volume += face.volume;
+    for (CloudPoint<Dim>& point : cloud_.at(node.node)) {
+      for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
+        if (out_.fields[f].layer == point.layer) point.group = only(out_.fields[f].group);
+      }
+    }
+  }
+
+  void collect_cracks(const ContactNode<Dim>& node) {
+    cracks_.clear();
+    for (std::size_t c = 0; c < layers_.node_cracks.size(); ++c) {
+      const CrossingSums& sum = state_.nodes.crossing[(layers_.crossing_node_begin + c) * block_nodes<Dim> + node.node];
+      if (sum.r[0][3] == 0) continue;
+      CrackAtNode<Dim> crack;
+      crack.crack = layers_.node_cracks[c];
+      Vec<Dim> n, N;
+      for (int k = 0; k < 2; ++k) n[k] = sum.r[0][k], N[k] = sum.r[1][k];
+      view_.drop_mirrored(node.number, n);
+      view_.drop_mirrored(node.number, N);
+      crack.n = normalized(n);
+      crack.N = normalized(N);
+      crack.side = sum.r[0][2];
+      cracks_.push_back(crack);
+      out_.sides.push_back({node.number, crack.crack, static_cast<std::int8_t>((crack.side > 0 ? 1 : 0) - (crack.side < 0 ? 1 : 0))});
+    }
+    if (cracks_.size() > 2) ++state_.scratch[b_].ledger.crowded_nodes;
+  }
+
+  // Materials inside a crack field (N13 sec. 2.3).
+  void pair_materials(const ContactNode<Dim>& node) {
+    const std::size_t begin = out_.pairs.size();
+    for (std::size_t a = 0; a < faces_.size(); ++a) {
+      if (faces_[a].rigid) continue;
+      int others = 0;
+      for (const Face<Dim>& f : faces_) others += !f.rigid && f.cracks == faces_[a].cracks;
+      if (others > 2 && model_.contact.several_materials == SeveralMaterials::virtual_material) {
+        pair_with_virtual(node, a);
+        continue;
+      }
+      for (std::size_t b = a + 1; b < faces_.size(); ++b) {
+        if (!faces_[b].rigid && faces_[b].cracks == faces_[a].cracks) pair_faces(node, faces_[a], faces_[b]);
+      }
+    }
+    // N13's virtual materials first, by crack field; solve_contact relies on it.
+    std::stable_sort(out_.pairs.begin() + static_cast<std::ptrdiff_t>(begin), out_.pairs.end(),
+                     [](const ContactPair<Dim>& a, const ContactPair<Dim>& b) {
+                       return std::tuple(!a.is_virtual(), a.name.others) < std::tuple(!b.is_virtual(), b.name.others);
+                     });
+  }
+
+  /// N13 Eq. 8. The law and the normal are those of the pair with the other material of most volume.
+  void pair_with_virtual(const ContactNode<Dim>& node, std::size_t a) {
+    Face<Dim> rest;
+    rest.cracks = faces_[a].cracks;
+    const Face<Dim>* most = nullptr;
+    for (std::size_t b = 0; b < faces_.size(); ++b) {
+      if (b == a || faces_[b].rigid || faces_[b].cracks != rest.cracks) continue;
+      rest.add(faces_[b]);
+      if (!most || faces_[b].volume > most->volume) most = &faces_[b];
+    }
+    pair_faces(node, faces_[a], rest, most);
+  }
+
+  /// Rigid bodies, whatever cracks part the material beside them; after all others (CONVENTIONS 36).
+  void pair_rigid(const ContactNode<Dim>& node) {
+    for (const Face<Dim>& rigid : faces_) {
+      if (!rigid.rigid) continue;
+      for (const Face<Dim>& f : faces_) {
+        if (!f.rigid) pair_faces(node, f, rigid);
+      }
+    }
+  }
+
+  /// a and b as materials; b may be N13's virtual material, of which `facing` is the part that gives law and normal.
+  void pair_faces(const ContactNode<Dim>& node, const Face<Dim>& a, const Face<Dim>& b, const Face<Dim>* facing = nullptr) {
+    const Face<Dim>& other = facing ? *facing : b;
+    ContactPair<Dim> pair;
+    pair.law = &model_.law_between(a.field, other.field);
+    if (std::holds_alternative<NoContact>(*pair.law)) return;
+    const bool bonded = std::holds_alternative<BondedContact>(*pair.law);
+    if (!bonded && !b.rigid && std::fmin(a.m, b.m) < model_.contact.mass_screen * (a.m + b.m)) return;  // CONVENTIONS 37
+    pair.a = a.groups;
+    pair.b = b.groups;
+    pair.name.field_a = a.field;
+    pair.name.field_b = facing ? ContactName::all_others : b.field;
+    pair.name.others = a.cracks;
+    if (!(b.wall >= 0 ? view_.see_wall(place_, a, b, pair) : view_.see_material(place_, a, b, other, pair))) return;
+    pair.previous = previous_state(node.number, pair);
+    out_.pairs.push_back(pair);
+  }
+
+  /// All materials on either side of a crack (N13 sec. 2.3; CONVENTIONS 34).
+  void pair_sides(const ContactNode<Dim>& node) {
+    if (cracks_.empty()) return;
+    const std::size_t begin = out_.pairs.size();
+    sides_.clear();
+    for (const Face<Dim>& f : faces_) {
+      if (f.rigid) continue;
+      auto at = std::find_if(sides_.begin(), sides_.end(), [&](const Face<Dim>& s) { return s.cracks == f.cracks; });
+      if (at == sides_.end()) {
+        sides_.push_back(f);
+      } else {
+        at->add(f);
+      }
+    }
+    for (std::size_t g = 0; g < sides_.size(); ++g) {
+      for (std::size_t h = g + 1; h < sides_.size(); ++h) pair_across(node, sides_[g], sides_[h]);
+    }
+    // CONVENTIONS 13: [0][1], [2][3] of the first crack, then [0][2], [1][3] of the second.
+    std::sort(out_.pairs.begin() + static_cast<std::ptrdiff_t>(begin), out_.pairs.end(),
+              [](const ContactPair<Dim>& a, const ContactPair<Dim>& b) { return a.name < b.name; });
+  }
+
+  void pair_across(const ContactNode<Dim>& node, const Face<Dim>& g, const Face<Dim>& h) {
+    const std::int64_t c = only_difference(g.cracks, h.cracks);
+    if (c < 0) return;
+    ContactPair<Dim> pair;
+    pair.law = &model_.crack_laws[static_cast<std::size_t>(c)];
+    if (std::holds_alternative<NoContact>(*pair.law)) return;
+    const CrackAtNode<Dim>* crack = nullptr;
+    for (const auto& k : cracks_) {
+      if (k.crack == c) crack = &k;
+    }
+    if (!crack) return;
+    const bool g_across = g.cracks.contains(static_cast<CrackId>(c));
+    const bool g_above = g_across == (crack->side > 0);
+    const Face<Dim>&a = g_above ? g : h, &b = g_above ? h : g;
+    const double fraction = a.m / (a.m + b.m);
+    const bool bonded = std::holds_alternative<BondedContact>(*pair.law);
+    if (!bonded && std::fmin(fraction, 1 - fraction) < model_.contact.mass_screen) return;  // CONVENTIONS 37
+    pair.a = a.groups;
+    pair.b = b.groups;
+    pair.name.crack = static_cast<CrackId>(c);
+    pair.name.others = g_across ? h.cracks : g.cracks;
+    if (!view_.see_across(place_, *crack, a, b, pair)) return;
+    pair.previous = previous_state(node.number, pair);
+    out_.pairs.push_back(pair);
+  }
+
+  /// Where the node has changed sides of another crack, the pair was known under the other label.
+  ContactState previous_state(std::int64_t number, const ContactPair<Dim>& pair) const {
+    if (state_.step == 0 && std::holds_alternative<AdhesiveContact>(*pair.law) && pair.gap <= 0.1 * model_.grid.smallest_cell())
+      return ContactState::stick;  // glued from the start
+    ContactKey key{number, pair.name};
+    for (const auto& k : cracks_) {
+      if (k.crack == pair.name.crack || joins(model_, model_.crack_laws[k.crack])) continue;
+      const double before = state_.memory.side(number, k.crack);
+      if (before * k.side < 0) key.name.others.toggle(k.crack);
+    }
+    return state_.memory.find(key);
+  }
+
+  State<Dim>& state_;
+  const Model<Dim>& model_;
+  std::size_t b_;
+  const BlockLayers<Dim>& layers_;
+  ContactNodes<Dim>& out_;
+  std::vector<int> present_, walls_;
+  ContactCloud<Dim> cloud_;
+  FaceToFace<Dim> view_;
+  // Of the node at hand.
+  std::vector<Face<Dim>> faces_;  ///< by group
+  std::vector<Face<Dim>> sides_;  ///< by sides of cracks
+  std::vector<CrackAtNode<Dim>> cracks_;
+  MeetingPlace<Dim> place_;
+};
+
+}  // namespace
+
+template <int Dim, class Shape>
+void find_contacts(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  state.scratch[b].contact.clear();
+  if (state.nodes.layers[b].node.size() < 2 && !state.nodes.layers[b].near_wall) return;
+  NodeFinder<Dim, Shape>(state, model, b).run();
+}
+
+template <int Dim>
+void remember_contacts(State<Dim>& state) {
+  state.memory.entries.clear();
+  state.memory.sides.clear();
+  for (const auto& scratch : state.scratch) {
+    for (const ContactNode<Dim>& node : scratch.contact.nodes) {
+      for (std::uint32_t q = node.first_pair; q < node.end_pair; ++q) {
+        const ContactPair<Dim>& pair = scratch.contact.pairs[q];
+        if (pair.state != ContactState::open) state.memory.entries.push_back({{node.number, pair.name}, pair.state});
+      }
+    }
+    state.memory.sides.insert(state.memory.sides.end(), scratch.contact.sides.begin(), scratch.contact.sides.end());
+  }
+  state.memory.sort();
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void find_contacts<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
+template void remember_contacts<2>(State<2>&);
+template void remember_contacts<3>(State<3>&);
+
+}  // namespace crampon

@@ -1,0 +1,25 @@
+#pragma once
+/// Which velocity fields face each other at the own nodes of a block, and how (N03 section 2.2; N13 sections 1.1, 1.2 and 3, step 1).
+
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// Distance from a wall, m, beyond which a node's material cannot touch it: its edge is at most a cell and a half from the node.
+template <int Dim>
+double wall_reach(const Grid<Dim>& grid) {
+  double h = 0;
+  for (int k = 0; k < Dim; ++k) h = std::fmax(h, grid.cell[k]);
+  return 1.5 * h;
+}
+
+/// After Task 1: the nodes with several fields, their groups, pairs, normals, gaps and areas, which hold for the whole step.
+template <int Dim, class Shape>
+void find_contacts(State<Dim>& state, const Model<Dim>& model, std::size_t block);
+
+/// After Task 6: what the next step must know about every contact. Serial.
+template <int Dim>
+void remember_contacts(State<Dim>& state);
+
+}  // namespace crampon
