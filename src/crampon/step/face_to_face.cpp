@@ -146,6 +146,9 @@ double FaceToFace<Dim>::material_gap(const MeetingPlace<Dim>& place, const Face<
 template <int Dim>
 Vec<Dim> FaceToFace<Dim>::found_normal(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b) {
   GradientNormal gradient = GradientNormal::largest_gradient;
+  const VolumeGradient<Dim> of_a{a.g, a.volume, a.rigid}, of_b{b.g, b.volume, b.rigid};
+  // A rigid body shows its own surface better than any regression over both (CONVENTIONS 33).
+  if (b.rigid && norm(b.g) >= norm(a.g) / model_.contact.rigid_bias) return normalized(-b.g);
   switch (model_.contact.normal) {
     case ContactNormal::logistic_regression:
     case ContactNormal::linear_regression: {
@@ -156,11 +159,11 @@ Vec<Dim> FaceToFace<Dim>::found_normal(const MeetingPlace<Dim>& place, const Fac
         labelled.side = side;
         labelled_.push_back(labelled);
       });
-      std::optional<Vec<Dim>> n;
-      if (model_.contact.normal == ContactNormal::logistic_regression) n = logistic_regression_normal<Dim>(labelled_, model_.grid.cell);
-      if (!n) n = linear_regression_normal<Dim>(labelled_, model_.grid.cell);
+      const auto n = model_.contact.normal == ContactNormal::logistic_regression
+                         ? logistic_regression_normal<Dim>(labelled_, model_.grid.cell)
+                         : linear_regression_normal<Dim>(labelled_, model_.grid.cell);
       if (n) return *n;
-      break;  // too few particles: a gradient
+      break;  // too few particles: there a gradient is better than the linear regression
     }
     case ContactNormal::average_gradient:
       gradient = GradientNormal::average;
@@ -171,7 +174,7 @@ Vec<Dim> FaceToFace<Dim>::found_normal(const MeetingPlace<Dim>& place, const Fac
     case ContactNormal::largest_gradient:
       break;
   }
-  return gradient_normal<Dim>(gradient, {a.g, a.volume, a.rigid}, {b.g, b.volume, b.rigid}, model_.contact.rigid_bias);
+  return gradient_normal<Dim>(gradient, of_a, of_b, model_.contact.rigid_bias);
 }
 
 template class FaceToFace<2>;

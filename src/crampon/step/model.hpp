@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "crampon/contact/edge_map.hpp"
 #include "crampon/contact/law.hpp"
-#include "crampon/contact/separation.hpp"
 #include "crampon/contact/wall.hpp"
 #include "crampon/core/function.hpp"
 #include "crampon/core/options.hpp"
