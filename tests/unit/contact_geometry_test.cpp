@@ -187,47 +187,35 @@ TEST(ContactGap, ThreeDimensions) {
       for (const Particle<3>& p : view.particles) gap.add(p.x, p.half_edges, p.side);
       EXPECT_NEAR(gap.gap(), 0, 1e-12);
       EXPECT_NEAR(gap.end_of_a(), offset * plane.h, 1e-12);
-      const double by_volume = contact_area(view.V[0], map, view.V[1], map, plane);
-      EXPECT_NEAR(by_volume / contact_area(view.V[0], view.V[1], gap.end_of_a(), gap.begin_of_b(), map, plane), 1, 0.1);
+      const double area = contact_area(view.V[0], dot(view.x[0], n), map, view.V[1], dot(view.x[1], n), map, plane);
+      EXPECT_NEAR(area / ((view.V[0] + view.V[1]) * map.area_at(offset, plane) / plane.h), 1, 0.1);
     }
   }
 }
 
 // Areas.
 
-TEST(ContactArea, AcrossAnAxis) {
-  const PlaneInCells plane{0.5, {0, 1, 0}, 0};
-  const EdgeMap gimp = edge_map(Shape::gimp, 0.25), linear = edge_map(Shape::linear, 0.25, Packing::continuous);
-  for (const double V_a : {0., 0.01, 0.2, 0.5, 0.8, 1.}) {
-    const double V_b = 1 - V_a, A = std::sqrt(2 * std::fmin(V_a, V_b)) / 0.5;
-    EXPECT_NEAR(contact_area(V_a, gimp, V_b, gimp, plane), A, 2e-3);
-    EXPECT_NEAR(contact_area(V_a, linear, V_b, linear, plane), A, 2e-3);
-    EXPECT_NEAR(contact_area(V_a, V_b, 0.1, 0.2, linear, plane), (1 - 0.3) / 0.5, 1e-12);
-  }
-  EXPECT_NEAR(contact_area(0.5, 0.5, 0.1, -0.1, edge_map(Shape::bspline, 0.25), plane), 0.75 / 0.5, 1e-12);
-  EXPECT_EQ(contact_area(1, 1, 1, 1.1, linear, plane), 0);
-}
-
-/// The nodes' areas add up to the length of the interface.
+/// The nodes' areas add up to the length of the interface, also where it gapes.
 TEST(ContactArea, OfStraightInterface) {
   for (const Shape shape : shapes) {
     const EdgeMap map = edge_map(shape, 0.25);
     for (const double angle : {0., 15., 30., 45.}) {
       for (const Rows rows_are : {Rows::along_line, Rows::along_grid}) {
-        for (int trial = -2; trial <= 2; ++trial) {
-          const Touching touching{angle * degree, 0.25 * trial, 0.25, rows_are};
-          const PlaneInCells plane = plane_in_cells(unit_cell, touching.n());
-          double by_volume = 0, by_distance = 0;
-          for_nodes(touching.particles(9), 7, shape, 0.25, [&](const Vec<2>& node, const View<2>& view) {
-            const double weight = std::clamp(5 - std::fabs(dot(node, touching.t())), 0., 1.) / 9;  // soft ends
-            RegressionGap<2> gap(touching.n());
-            for (const Particle<2>& p : view.particles) gap.add(p.x, p.half_edges, p.side);
-            by_volume += weight * contact_area(view.V[0], map, view.V[1], map, plane);
-            by_distance += weight * contact_area(view.V[0], view.V[1], gap.end_of_a(), gap.begin_of_b(), map, plane);
-          });
-          const bool unseen = shape == Shape::linear && angle == 0;  // an edge a quarter cell from the next nodes has no particles there
-          EXPECT_NEAR(by_volume, 1, shape == Shape::linear ? (unseen ? 0.26 : 0.13) : 0.08) << angle;
-          EXPECT_NEAR(by_distance, 1, unseen ? 0.26 : 0.08) << angle;
+        for (const double gape : {0., 0.1, 0.3}) {
+          for (int trial = -2; trial <= 2; ++trial) {
+            const Touching touching{angle * degree, 0.25 * trial + 0.02, 0.25, rows_are};
+            const Vec<2> n = touching.n();
+            std::vector<Particle<2>> particles = touching.particles(9);
+            for (Particle<2>& p : particles) p.x += n * (p.side == ContactSide::a ? -0.5 * gape : 0.5 * gape);
+            const PlaneInCells plane = plane_in_cells(unit_cell, n);
+            double area = 0;
+            for_nodes(particles, 7, shape, 0.25, [&](const Vec<2>& node, const View<2>& view) {
+              const double weight = std::clamp(5 - std::fabs(dot(node, touching.t())), 0., 1.) / 9;  // soft ends
+              area += weight * contact_area(view.V[0], dot(view.x[0], n), map, view.V[1], dot(view.x[1], n), map, plane);
+            });
+            // Linear functions see whole particles or none.
+            EXPECT_NEAR(area, 1, shape == Shape::linear ? 0.2 : gape > 0 ? 0.16 : 0.08) << angle << " degrees, gap " << gape;
+          }
         }
       }
     }

@@ -117,7 +117,11 @@ EdgeMap::Table EdgeMap::tabulate(Boxes boxes, std::span<const double> direction,
     // At the ends: a layer of no weight, and all of them.
     table.p.push_back(i == half_count ? seen.reach() : i == -half_count ? 0. : first / ahead);
     table.rest.push_back(i == half_count ? 1. : i == -half_count ? 0. : behind / (ahead + behind));
-    table.area.push_back(area.at(d));
+    // Linear functions across an axis: a node does not see particles that are a cell away, and the others share its part.
+    const bool blind = boxes.cell == 2 && boxes.particle == 0 && direction.size() == 1;
+    table.area.push_back(i == half_count || i == -half_count ? 0.
+                         : blind                             ? std::clamp((high - std::fabs(d)) / std::fmax(2 * high - 1, 1e-9), 0., 1.)
+                                                             : area.at(d));
   }
   return table;
 }
@@ -132,11 +136,11 @@ double EdgeMap::Table::find(const std::vector<double>& column, double value) con
   return low + step * (static_cast<double>(i) - (*above - value) / (*above - *(above - 1)));
 }
 
-double EdgeMap::Table::area_at(double d) const {
-  const double at = (d - low) / step;
-  if (!(at >= 0 && at <= static_cast<double>(area.size() - 1))) return 0;
-  const std::size_t i = std::min(static_cast<std::size_t>(at), area.size() - 2);
-  return area[i] + (at - static_cast<double>(i)) * (area[i + 1] - area[i]);
+/// Linear between steps; beyond them the value at the end.
+double EdgeMap::Table::read(const std::vector<double>& column, double d) const {
+  const double last = static_cast<double>(column.size() - 1), at = std::clamp((d - low) / step, 0., last);
+  const std::size_t i = std::min(static_cast<std::size_t>(at), column.size() - 2);
+  return column[i] + (at - static_cast<double>(i)) * (column[i + 1] - column[i]);
 }
 
 template <class F>
@@ -156,11 +160,11 @@ double EdgeMap::edge_distance(double p, const PlaneInCells& plane) const {
 }
 
 double EdgeMap::area_at(double d, const PlaneInCells& plane) const {
-  return mix(plane, [d](const Table& t) { return t.area_at(d); });
+  return mix(plane, [d](const Table& t) { return t.read(t.area, d); });
 }
 
-double EdgeMap::area_of(double share, const PlaneInCells& plane) const {
-  return mix(plane, [rest = 1 - share](const Table& t) { return t.area_at(t.find(t.rest, rest)); });
+double EdgeMap::volume_at(double d, const PlaneInCells& plane) const {
+  return 1 - mix(plane, [d](const Table& t) { return t.read(t.rest, d); });
 }
 
 template double perpendicular_cell<2>(const Vec<2>&, const Vec<2>&);

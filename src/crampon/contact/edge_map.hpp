@@ -48,8 +48,8 @@ class EdgeMap {
   double edge_distance(double p, const PlaneInCells& plane = {}) const;
   /// The node's part of the area of an edge at distance d, over V_i/h.
   double area_at(double d, const PlaneInCells& plane = {}) const;
-  /// The same where the particles make `share`, at most 1/2, of the volume that the node sees on both sides of the edge.
-  double area_of(double share, const PlaneInCells& plane = {}) const;
+  /// The part of a node's volume that particles have whose edge is at distance d.
+  double volume_at(double d, const PlaneInCells& plane = {}) const;
 
  private:
   /// What shape functions are: boxes of one cell's width, folded with each other, and with one of the particle's.
@@ -62,9 +62,9 @@ class EdgeMap {
     double low = -1, step = 2;
     std::vector<double> p{-1, 1};    ///< mean position, increasing
     std::vector<double> rest{0, 1};  ///< what the others have of the node's volume, increasing
-    std::vector<double> area{0, 0};
+    std::vector<double> area{0, 0};  ///< parts of nodes that see both sides add up to 1
     double find(const std::vector<double>& column, double value) const;
-    double area_at(double d) const;
+    double read(const std::vector<double>& column, double d) const;
   };
   static EdgeMap make(Boxes boxes, HalfSizes half_sizes, Packing packing);
   static Table tabulate(Boxes boxes, std::span<const double> direction, double half_size, Packing packing);

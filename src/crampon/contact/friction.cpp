@@ -53,6 +53,9 @@ SlidingLimit limit_of(const SlipWeakeningContact& law, const Sliding& s) {
   return limited(s, law.friction + (law.static_friction - law.friction) * fall, law.shear_strength * left * s.area * s.dt);
 }
 
+/// Once the interface has failed.
+SlidingLimit limit_of(const InterfaceContact& law, const Sliding& s) { return limited(s, law.friction); }
+
 /// S = eta A v/h_l with v = (d_t - S)/m.
 SlidingLimit limit_of(const ViscousContact& law, const Sliding& s) {
   const double drag = law.viscosity * s.area * s.dt / (s.mass * law.film);
@@ -65,13 +68,16 @@ SlidingLimit sliding_limit(const ContactLawSpec& law, const Sliding& sliding) {
   return std::visit([&](const auto& l) { return limit_of(l, sliding); }, law);
 }
 
-bool needs_slip(const ContactLawSpec& law) { return std::holds_alternative<SlipWeakeningContact>(law); }
+bool needs_history(const ContactLawSpec& law) {
+  if (const auto* interface = std::get_if<InterfaceContact>(&law)) return interface->can_fail();
+  return std::holds_alternative<SlipWeakeningContact>(law);
+}
 
 bool needs_area(const ContactLawSpec& law) {
   if (const auto* coulomb = std::get_if<CoulombContact>(&law)) return coulomb->strength.has_value();
   return std::holds_alternative<AdhesiveContact>(law) || std::holds_alternative<SpeedFrictionContact>(law) ||
          std::holds_alternative<RateWeakeningContact>(law) || std::holds_alternative<SlipWeakeningContact>(law) ||
-         std::holds_alternative<ViscousContact>(law);
+         std::holds_alternative<ViscousContact>(law) || std::holds_alternative<InterfaceContact>(law);
 }
 
 bool adhesion_holds(const ContactLawSpec& law, double pull, double full, double area, double dt) {

@@ -24,9 +24,9 @@ struct SlidingLimit {
 /// Whether the law stops all slip, and with what impulse it resists if not.
 SlidingLimit sliding_limit(const ContactLawSpec& law, const Sliding& sliding);
 
-/// Does the law need the contact area, or the distance slipped?
+/// Does the law need the contact area, or what the particles beside the contact remember of it?
 bool needs_area(const ContactLawSpec& law);
-bool needs_slip(const ContactLawSpec& law);
+bool needs_history(const ContactLawSpec& law);
 
 /// Adhesion: do faces that have met stay together under a pulling impulse and a tangential one, kg m/s? False for other laws.
 bool adhesion_holds(const ContactLawSpec& law, double pull, double full, double area, double dt);

@@ -114,6 +114,23 @@ const Declaration<ViscousContact>& ViscousContact::declaration() {
   return d;
 }
 
+const Declaration<InterfaceContact>& InterfaceContact::declaration() {
+  static const Bounds stiffness{.low = 0, .infinite = true};
+  static const auto d =
+      Declaration<InterfaceContact>("interface",
+                                    "An imperfect interface: tractions in proportion to the displacement across it since the start.")
+          .quantity("tangential", &InterfaceContact::tangential, "Pa/m", stiffness, "stiffness against sliding; inf: none", required)
+          .quantity("tension", &InterfaceContact::tension, "Pa/m", stiffness, "stiffness against opening; inf: none", required)
+          .quantity("compression", &InterfaceContact::compression, "Pa/m", stiffness, "stiffness against closing; inf: none")
+          .quantity(
+              "shear_strength", &InterfaceContact::shear_strength, "Pa", Bounds::positive(),
+              "shear traction at which it fails for good, with (S/shear_strength)^2 + (N/normal_strength)^2 = 1; left out: never by shear")
+          .quantity("normal_strength", &InterfaceContact::normal_strength, "Pa", Bounds::positive(),
+                    "tensile traction at which it fails; left out: never by tension")
+          .quantity("friction", &InterfaceContact::friction, "1", Bounds::non_negative(), "coefficient of friction once it has failed");
+  return d;
+}
+
 const Family<ContactLawSpec>& contact_laws() {
   static const auto family = Family<ContactLawSpec>("contact law", "law", "What two bodies, or the faces of a crack, do when they meet.")
                                  .add(FrictionlessContact::declaration())
@@ -125,7 +142,8 @@ const Family<ContactLawSpec>& contact_laws() {
                                  .add(SpeedFrictionContact::declaration())
                                  .add(RateWeakeningContact::declaration())
                                  .add(SlipWeakeningContact::declaration())
-                                 .add(ViscousContact::declaration());
+                                 .add(ViscousContact::declaration())
+                                 .add(InterfaceContact::declaration());
   return family;
 }
 

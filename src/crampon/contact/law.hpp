@@ -3,6 +3,7 @@
 /// (contact/node_solve.hpp) turns it into impulses, and friction.hpp says how much it resists sliding. Adding a law: one struct here
 /// or in its own file, one entry in ContactLawSpec and contact_laws(), one overload in friction.cpp.
 
+#include <cmath>
 #include <optional>
 #include <variant>
 
@@ -80,8 +81,20 @@ struct ViscousContact {
   static const Declaration<ViscousContact>& declaration();
 };
 
+/// An imperfect interface: tractions in proportion to the displacement across it (docs/theory/contact.md, interfaces).
+struct InterfaceContact {
+  double tangential = 0;                       ///< D_t, Pa/m; infinite: no slip
+  double tension = 0;                          ///< D_nt, Pa/m; infinite: does not open
+  double compression = HUGE_VAL;               ///< D_nc, Pa/m; infinite: does not close
+  std::optional<double> shear_strength = {};   ///< Pa; reached: the interface is gone and contact is left
+  std::optional<double> normal_strength = {};  ///< Pa
+  double friction = 0;                         ///< of that contact
+  bool can_fail() const { return shear_strength || normal_strength; }
+  static const Declaration<InterfaceContact>& declaration();
+};
+
 using ContactLawSpec = std::variant<FrictionlessContact, NoContact, BondedContact, StickContact, CoulombContact, AdhesiveContact,
-                                    SpeedFrictionContact, RateWeakeningContact, SlipWeakeningContact, ViscousContact>;
+                                    SpeedFrictionContact, RateWeakeningContact, SlipWeakeningContact, ViscousContact, InterfaceContact>;
 
 /// The family as the input sees it: `contact = { law = "coulomb", friction = 0.3 }`.
 const Family<ContactLawSpec>& contact_laws();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crampon/contact/interface.hpp"
 #include "crampon/contact/response.hpp"
 #include "crampon/contact/solve_together.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 /// What is known of a pair before its law speaks.
 template <int Dim>
 Sliding sliding_of(const ContactRules& rules, const ContactPair<Dim>& pair, double m) {
-  return {0, 0, m, rules.dt, pair.area, pair.slip};
+  return {0, 0, m, rules.dt, pair.area, pair.history};
 }
 
 /// No detection (CONVENTIONS 44). Such pairs are there only when pairs are done one after another or one is rigid; else bonded fields are
@@ -105,6 +106,7 @@ Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& p
 template <int Dim>
 Response<Dim> respond(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
   if (std::holds_alternative<BondedContact>(*pair.law)) return bonded_response(pair, m, w);
+  if (holds_as_interface(pair)) return interface_response(rules, pair, m, w);
   return rules.literal ? literal_response(rules, pair, m, w) : consistent_response(rules, pair, m, w);
 }
 

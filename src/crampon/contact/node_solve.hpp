@@ -61,7 +61,10 @@ struct ContactPair {
   double gap = 0;                              ///< m, at the start of the step: negative when they overlap
   double volume_ratio = 0;                     ///< V_rel of N03 Eq. 10
   double area = 0;                             ///< A, m2, where the law asks for it
-  double slip = 0;                             ///< distance slipped so far, m, where the law asks for it
+  double history = 0;                          ///< what particles remember of it: distance slipped, m, or 1 where an interface failed
+  double history_gain = 0;                     ///< in this step
+  Vec<Dim> opening;                            ///< displacement of b against a since the start, m, where the law asks for it
+  Vec<Dim> w_settled;                          ///< relative velocity after Task 2, m/s
   ContactState previous = ContactState::open;  ///< Task-4 state of the last step
   ContactState state = ContactState::open;     ///< Task-4 state of this step
   double w_end = 0;                            ///< normal relative velocity right after the impulse of Task 4, m/s

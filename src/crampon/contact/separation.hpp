@@ -44,11 +44,10 @@ class RegressionGap {
   double end_of_a_ = -std::numeric_limits<double>::infinity(), begin_of_b_ = std::numeric_limits<double>::infinity();
 };
 
-/// Area of the face between a and b that belongs to the node, m^2 (in 2D, from volumes that are areas: m), from their volumes alone. With
-/// edges across an axis and linear functions, or uGIMP, this is sqrt(2 min(V_a, V_b) (V_a + V_b))/h (Nairn, CMES 92 (2013) 271).
-double contact_area(double V_a, const EdgeMap& edge_a, double V_b, const EdgeMap& edge_b, const PlaneInCells& plane);
-
-/// The same where the ends of a and b along n are known, m: the face is taken midway.
-double contact_area(double V_a, double V_b, double end_of_a, double begin_of_b, const EdgeMap& edge, const PlaneInCells& plane);
+/// Area of the face between a and b that belongs to the node, m^2 (in 2D, from volumes that are areas: m), from their volumes and the mean
+/// positions as in position_gap. Where they touch, edges across an axis and uGIMP give about sqrt(2 min(V_a, V_b) (V_a + V_b))/h
+/// (Nairn, CMES 92 (2013) 271); a gap between them does not make the face smaller.
+double contact_area(double V_a, double x_a, const EdgeMap& edge_a, double V_b, double x_b, const EdgeMap& edge_b,
+                    const PlaneInCells& plane);
 
 }  // namespace crampon

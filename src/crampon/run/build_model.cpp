@@ -286,7 +286,7 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
     packs += count;
   }
   Particles<Dim>& particles = state.particles;
-  particles.allocate(packs, history);
+  particles.allocate(packs, history, model.remembers_contact());
   for (std::size_t m = 0; m < by_material.size(); ++m) {
     const Run& run = state.blocks.runs[m];
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
@@ -302,6 +302,7 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
         particles.mass_volume[2 * k][l] = real ? p.mass : 0.;
         particles.mass_volume[2 * k + 1][l] = real ? p.volume : 0.;
         particles.original[slot] = p.x;
+        if (model.remembers_contact()) particles.contact[slot] = 0;
         particles.id[slot] = real ? by_material[m][i] : padding_id;
         particles.body[slot] = p.body;
       }

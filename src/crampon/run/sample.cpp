@@ -244,6 +244,7 @@ std::uint64_t hash_state(const State<Dim>& state) {
     hash.add(state.particles.position(p).c);
     hash.add(state.particles.velocity(p).c);
     for (int c = 0; c < stress_size<Dim>; ++c) hash.add(state.particles.stress[p / lanes * stress_size<Dim> + c][p % lanes]);
+    if (state.particles.contact.size() > 0) hash.add(state.particles.contact[p]);
     for (int c = 0; c < state.particles.history_size; ++c)
       hash.add(state.particles.history[p / lanes * state.particles.history_size + c][p % lanes]);
   }

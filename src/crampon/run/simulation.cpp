@@ -82,9 +82,9 @@ class Engine final : public Simulation {
   PointFrame nodes() const override { return sample_nodes(state_, model_); }
 
   std::vector<HistoryColumn> history_columns() const override {
-    std::vector<HistoryColumn> c = {{"time", "s"},         {"kinetic_energy", "J"},  {"strain_energy", "J"}, {"total_energy", "J"},
-                                    {"load_work", "J"},    {"body_force_work", "J"}, {"boundary_work", "J"}, {"damping_loss", "J"},
-                                    {"contact_loss", "J"}, {"friction_loss", "J"},   {"energy_closure", "J"}};
+    std::vector<HistoryColumn> c = {{"time", "s"},         {"kinetic_energy", "J"},  {"strain_energy", "J"},    {"total_energy", "J"},
+                                    {"load_work", "J"},    {"body_force_work", "J"}, {"boundary_work", "J"},    {"damping_loss", "J"},
+                                    {"contact_loss", "J"}, {"friction_loss", "J"},   {"interface_energy", "J"}, {"energy_closure", "J"}};
     for (int k = 0; k < Dim; ++k) c.push_back({std::string("momentum_") + axis_names[k], "kg m/s"});
     c.push_back({"angular_momentum_z", "kg m2/s"});
     for (const auto& condition : model_.conditions) {
@@ -112,9 +112,9 @@ class Engine final : public Simulation {
     const EnergyTotals& e = state_.energy;
     const double total = sums.kinetic + sums.strain;
     const double closure =
-        total + e.damping + e.contact_loss + e.friction_loss - e.load_work - e.body_work - e.boundary_work - initial_energy_;
-    std::vector<double> row = {state_.time,     sums.kinetic, sums.strain,    total,           e.load_work, e.body_work,
-                               e.boundary_work, e.damping,    e.contact_loss, e.friction_loss, closure};
+        total + e.damping + e.contact_loss + e.friction_loss + e.interfaces - e.load_work - e.body_work - e.boundary_work - initial_energy_;
+    std::vector<double> row = {state_.time,     sums.kinetic, sums.strain,    total,           e.load_work,  e.body_work,
+                               e.boundary_work, e.damping,    e.contact_loss, e.friction_loss, e.interfaces, closure};
     for (int k = 0; k < Dim; ++k) row.push_back(sums.momentum[k]);
     row.push_back(sums.angular);
     for (std::size_t c = 0; c < model_.conditions.size(); ++c) {

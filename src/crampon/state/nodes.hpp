@@ -19,7 +19,8 @@ struct MotionRecord {
 };
 
 /// Sums behind contact at a node, per layer: {V, m(x - x_i)}, {grad V, m(X - x_i)} (N03 Eq. 8, N13 sec. 3 step 1); in 2D V is the area, m2,
-/// and two packs hold all: {V, m x, m y, dV/dx}, {dV/dy, m X, m Y, 0}. In 3D {V, m x}, {0, m X}, {grad V, 0}.
+/// and two packs hold all: {V, m x, m y, dV/dx}, {dV/dy, m X, m Y, m c}. In 3D {V, m x}, {m c, m X}, {grad V, 0}. c is what a particle
+/// remembers of contact.
 template <int Dim>
 struct ContactSums {
   Pack r[Dim == 2 ? 2 : 3];
@@ -27,7 +28,8 @@ struct ContactSums {
   double volume() const { return r[0][0]; }
   Vec<Dim> present() const { return three(r[0]); }   ///< sum of m (x - x_i), kg m
   Vec<Dim> original() const { return three(r[1]); }  ///< sum of m (X - x_i), kg m
-  Vec<Dim> gradient() const {                        ///< sum of V_p G_ip: out of the material
+  double history() const { return Dim == 2 ? r[1][3] : r[1][0]; }
+  Vec<Dim> gradient() const {  ///< sum of V_p G_ip: out of the material
     Vec<Dim> g;
     if constexpr (Dim == 2) {
       g[0] = r[0][3], g[1] = r[1][0];

@@ -31,12 +31,13 @@ struct Particles {
   AlignedArray<Pack> stress;         ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
   AlignedArray<Pack> history;        ///< [pack][history_size]: strain or deformation gradient and the law's own variables
   AlignedArray<Vec<Dim>> original;   ///< [particle]: position at the start, m
+  AlignedArray<double> contact;      ///< [particle]: what it remembers of contact (ContactPair::history); empty when no law asks
   AlignedArray<std::uint32_t> id;    ///< [particle]: number in the order of creation
   AlignedArray<std::uint16_t> body;  ///< [particle]
 
   std::size_t size() const { return packs * lanes; }
 
-  void allocate(std::size_t pack_count, int history_packs) {
+  void allocate(std::size_t pack_count, int history_packs, bool remembers_contact) {
     packs = pack_count;
     history_size = history_packs;
     motion.resize_discarding(size() * motion_packs<Dim>);
@@ -44,11 +45,13 @@ struct Particles {
     stress.resize_discarding(packs * stress_size<Dim>);
     history.resize_discarding(packs * history_size);
     original.resize_discarding(size());
+    contact.resize_discarding(remembers_contact ? size() : 0);
     id.resize_discarding(size());
     body.resize_discarding(size());
   }
   std::size_t bytes() const {
-    return motion.bytes() + mass_volume.bytes() + stress.bytes() + history.bytes() + original.bytes() + id.bytes() + body.bytes();
+    return motion.bytes() + mass_volume.bytes() + stress.bytes() + history.bytes() + original.bytes() + contact.bytes() + id.bytes() +
+           body.bytes();
   }
 
   bool is_padding(std::size_t p) const { return id[p] == padding_id; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crampon/contact/interface.hpp"
 #include "crampon/step/boundary.hpp"
 
 namespace crampon {
@@ -60,7 +61,7 @@ double energy_taken(ContactGroup<Dim>& group, ContactTask task, const Vec<Dim>& 
 /// Work that friction takes in Task 4: the tangential impulse times the mean slip of the step (docs/theory/contact.md, energy).
 template <int Dim>
 double friction_work(const ContactGroup<Dim>* groups, const ContactPair<Dim>& pair) {
-  if (pair.state != ContactState::slip) return 0;
+  if (pair.state != ContactState::slip || holds_as_interface(pair)) return 0;
   const Vec<Dim> J_t = pair.J - pair.n * dot(pair.J, pair.n);
   if (J_t == Vec<Dim>{}) return 0;
   const auto settled = [&](GroupSet set) {
@@ -75,6 +76,26 @@ double friction_work(const ContactGroup<Dim>* groups, const ContactPair<Dim>& pa
   const Vec<Dim> start = settled(pair.b) - settled(pair.a), end = side_of(groups, pair.b).v - side_of(groups, pair.a).v;
   const double share = pair.is_virtual() ? 0.5 : 1;  // there every face is met from both of its sides
   return share * std::fmax(-0.5 * dot(J_t, start + end), 0.);
+}
+
+template <int Dim>
+void settle_pairs(const ContactGroup<Dim>* groups, ContactPair<Dim>* pairs, int pair_count) {
+  for (int q = 0; q < pair_count; ++q) pairs[q].w_settled = side_of(groups, pairs[q].b).v - side_of(groups, pairs[q].a).v;
+}
+
+/// After Task 4: what particles are to remember, and what the springs of an interface hold.
+template <int Dim>
+void close_pair(const ContactGroup<Dim>* groups, ContactPair<Dim>& pair, double dt, BlockLedger<Dim>& ledger) {
+  const PairSide<Dim> a = side_of(groups, pair.a), b = side_of(groups, pair.b);
+  const Vec<Dim> w = b.v - a.v;
+  if (holds_as_interface(pair)) {
+    ledger.interface_energy += interface_energy(pair, reduced_mass(a, b), w, dt);
+    if (interface_load(pair, dt) >= 1) pair.history_gain = 1 - pair.history;
+  }
+  if (std::holds_alternative<SlipWeakeningContact>(*pair.law) && pair.state == ContactState::slip) {
+    const Vec<Dim> mean = (w + pair.w_settled) * 0.5;
+    pair.history_gain = norm(mean - pair.n * dot(mean, pair.n)) * dt;
+  }
 }
 
 /// What rigid bodies give to the others: work at the boundary, and in Task 4 the force.
@@ -102,6 +123,23 @@ Vec<Dim> place_of(const State<Dim>& state, const Model<Dim>& model, std::size_t 
   return model.grid.node_position(i);
 }
 
+/// What particles are to add to their memory of contact waits on the nodes in the place of the contact sums, which have done their work:
+/// {gain, 1} where there is contact, else zeros.
+template <int Dim>
+void forget_gains(State<Dim>& state, std::size_t b) {
+  const std::size_t count = state.nodes.layers[b].node.size() * block_nodes<Dim>;
+  for (std::size_t i = 0; i < count; ++i) state.nodes.contact[nodal_index(state, b, 0, 0) + i].r[0] = splat(0.);
+}
+template <int Dim>
+void put_gain(State<Dim>& state, std::size_t b, const ContactNode<Dim>& node, const ContactPair<Dim>& pair) {
+  if (!needs_history(*pair.law) || (pair.state == ContactState::open && !holds_as_interface(pair))) return;
+  const ContactNodes<Dim>& contacts = state.scratch[b].contact;
+  for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
+    if (pair.a & only(contacts.fields[f].group))
+      state.nodes.contact[nodal_index(state, b, contacts.fields[f].layer, node.node)].r[0] = Pack{pair.history_gain, 1., 0., 0.};
+  }
+}
+
 ContactRules rules_of(const auto& contact, ContactTask task, double dt) {
   ContactRules rules;
   rules.task = task;
@@ -121,6 +159,8 @@ ContactRules rules_of(const auto& contact, ContactTask task, double dt) {
 template <int Dim>
 void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, ContactTask task, double dt) {
   ContactNodes<Dim>& contacts = state.scratch[b].contact;
+  const bool remembers = task == ContactTask::four && state.particles.contact.size() > 0;
+  if (remembers) forget_gains(state, b);
   if (contacts.nodes.empty()) return;
   Nodes<Dim>& nodes = state.nodes;
   BlockLedger<Dim>& ledger = state.scratch[b].ledger;
@@ -156,7 +196,12 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
         if (groups[g].rigid)
           book_rigid(groups[g], state.rigid[static_cast<std::size_t>(groups[g].body)].start, x_i, by_group, task, dt, ledger);
       }
-      for (int q = 0; q < pair_count && task == ContactTask::four; ++q) rubbed += friction_work(groups, pairs[q]);
+      if (task == ContactTask::two) settle_pairs(groups, pairs, pair_count);
+      for (int q = 0; q < pair_count && task == ContactTask::four; ++q) {
+        rubbed += friction_work(groups, pairs[q]);
+        close_pair(groups, pairs[q], dt, ledger);
+        if (remembers) put_gain(state, b, node, pairs[q]);
+      }
       ledger.contact_loss += taken - rubbed;
       ledger.friction_loss += rubbed;
     }

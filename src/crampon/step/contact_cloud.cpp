@@ -6,19 +6,6 @@
 
 namespace crampon {
 
-namespace {
-
-template <int Dim>
-std::array<Vec<Dim>, Dim> half_edges(const Model<Dim>& model, const Material<Dim>& material, const Pack* F, int lane) {
-  std::array<Vec<Dim>, Dim> r{};
-  for (int k = 0; k < Dim; ++k) {
-    for (int d = 0; d < Dim; ++d) r[k][d] = F[d * Dim + k][lane] * material.half_size[k] * model.grid.cell[k];
-  }
-  return r;
-}
-
-}  // namespace
-
 template <int Dim>
 template <class Shape>
 void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<bool>& wanted) {
@@ -64,14 +51,19 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
               CloudPoint<Dim> point;
               point.layer = layer_here[t.layer];
               point.x = state.particles.position(p);
-              point.half_edges = half_edges(model, material, F, l);
+              point.m = state.particles.mass(p) * stencil.S[n][l];
+              for (int k = 0; k < Dim; ++k) {
+                point.half_size[k] = material.half_size[k] * model.grid.cell[k];
+                for (int d = 0; d < Dim; ++d) point.F[k][d] = F[d * Dim + k][l];
+              }
               for (int k = 0; k < Dim; ++k) {
                 const double x_i = model.grid.node_coordinate(k, node[k]);
                 if (t.flip >> k & 1u) {
                   // The mirror stands midway between the node and the one beyond it for which the pair was.
                   const int beyond = unflatten<Dim>(stencil.lowest(l) + T::steps[n], T::side)[k] + first[k] - T::offset;
                   point.x[k] = model.grid.node_coordinate(k, beyond) - point.x[k];
-                  for (auto& r : point.half_edges) r[k] = -r[k];
+                  for (auto& column : point.F) column[k] = -column[k];
+                  point.F[k] = -point.F[k];
                 } else {
                   point.x[k] -= x_i;
                 }

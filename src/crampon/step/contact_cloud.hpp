@@ -12,10 +12,19 @@ namespace crampon {
 /// A particle that has a part in a node (S_ip != 0).
 template <int Dim>
 struct CloudPoint {
-  int layer = 0;                           ///< of the node's block
-  GroupSet group = 0;                      ///< at the node; set by who knows the groups
-  Vec<Dim> x;                              ///< from the node, m; of a folded pair the mirror image
-  std::array<Vec<Dim>, Dim> half_edges{};  ///< of the deformed particle, m
+  int layer = 0;                  ///< of the node's block
+  GroupSet group = 0;             ///< at the node; set by who knows the groups
+  Vec<Dim> x;                     ///< from the node, m; of a folded pair the mirror image
+  double m = 0;                   ///< m_p S_ip, kg
+  std::array<Vec<Dim>, Dim> F{};  ///< columns of its deformation gradient
+  Vec<Dim> half_size;             ///< of the particle at the start, m
+
+  /// From the middle of the deformed particle to the middles of its faces, m.
+  std::array<Vec<Dim>, Dim> half_edges() const {
+    std::array<Vec<Dim>, Dim> r = F;
+    for (int k = 0; k < Dim; ++k) r[k] *= half_size[k];
+    return r;
+  }
 };
 
 /// Particles by own node of a block, in the order of tiles and packs, so that sums over them do not depend on threads.

@@ -34,9 +34,7 @@ Vec<Dim> apart_at_start(const Face<Dim>& a, const Face<Dim>& b) {
 }  // namespace
 
 template <int Dim>
-FaceToFace<Dim>::FaceToFace(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {
-  cracks_have_areas_ = std::any_of(model.crack_laws.begin(), model.crack_laws.end(), needs_area);
-}
+FaceToFace<Dim>::FaceToFace(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {}
 
 template <int Dim>
 void FaceToFace<Dim>::drop_mirrored(std::int64_t number, Vec<Dim>& n) const {
@@ -56,8 +54,25 @@ bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Di
   const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
   pair.volume_ratio = relative_volume(place);
   pair.gap = material_gap(place, a, b, pair, plane);
-  if (needs_area(*pair.law)) pair.area = area_between(a, b, plane);
+  if (needs_area(*pair.law)) pair.area = area_between(a, b, pair.n);
+  look_back(place, a, b, pair);
   return true;
+}
+
+/// What the law asks of the past: on the side of the lower field, above a crack (docs/theory/contact.md, laws).
+template <int Dim>
+void FaceToFace<Dim>::look_back(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const {
+  if (needs_history(*pair.law)) pair.history = a.history / a.m;
+  if (!std::holds_alternative<InterfaceContact>(*pair.law)) return;
+  // Of what lies between the mean positions, the strain and the turn of both sides are not opening.
+  const Vec<Dim> start = apart_at_start(a, b);
+  Vec<Dim> deformed;
+  for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) {
+    const double share = 0.5 * point.m / (side == ContactSide::a ? a.m : b.m);
+    for (int k = 0; k < Dim; ++k) deformed += point.F[k] * (share * start[k]);
+  });
+  pair.opening = apart(a, b) - deformed;
+  pair.gap = dot(pair.opening, pair.n);  // an interface is closed at the start
 }
 
 template <int Dim>
@@ -87,7 +102,8 @@ bool FaceToFace<Dim>::see_across(const MeetingPlace<Dim>& place, const CrackAtNo
   pair.volume_ratio = relative_volume(place);
   if (model_.contact.detection == ContactDetection::volume && model_.contact.scheme == ContactScheme::consistent)
     pair.gap = gap_by_volume(pair.volume_ratio);
-  if (cracks_have_areas_) pair.area = area_between(a, b, plane_in_cells(model_.grid.cell, pair.n));
+  if (needs_area(*pair.law)) pair.area = area_between(a, b, pair.n);
+  look_back(place, a, b, pair);
   return true;
 }
 
@@ -104,8 +120,10 @@ double FaceToFace<Dim>::thickness(const Face<Dim>& a, const Face<Dim>& b) const 
 }
 
 template <int Dim>
-double FaceToFace<Dim>::area_between(const Face<Dim>& a, const Face<Dim>& b, const PlaneInCells& plane) const {
-  return contact_area(a.volume, model_.fields[a.field].edge, b.volume, model_.fields[b.field].edge, plane) * thickness(a, b);
+double FaceToFace<Dim>::area_between(const Face<Dim>& a, const Face<Dim>& b, const Vec<Dim>& n) const {
+  return contact_area(a.volume, dot(a.x, n) / a.m, model_.fields[a.field].edge, b.volume, dot(b.x, n) / b.m, model_.fields[b.field].edge,
+                      plane_in_cells(model_.grid.cell, n)) *
+         thickness(a, b);
 }
 
 template <int Dim>
@@ -132,7 +150,7 @@ double FaceToFace<Dim>::material_gap(const MeetingPlace<Dim>& place, const Face<
       return position_gap(dot(a.x, pair.n) / a.m, model_.fields[a.field].edge, dot(b.x, pair.n) / b.m, model_.fields[b.field].edge, plane);
     case MaterialDetection::regression: {
       RegressionGap<Dim> gap(pair.n);
-      for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) { gap.add(point.x, point.half_edges, side); });
+      for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) { gap.add(point.x, point.half_edges(), side); });
       return gap.gap();
     }
     case MaterialDetection::displacement:

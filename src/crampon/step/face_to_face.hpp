@@ -27,6 +27,7 @@ struct Face {
   double m = 0;             ///< kg; of rigid bodies the volume
   double volume = 0;        ///< m3; in 2D m2
   Vec<Dim> x, X, g;         ///< sums of m (x - x_i), m (X - x_i), V_p G_ip
+  double history = 0;       ///< sum of m c
   std::uint16_t field = 0;  ///< the one with most volume: its laws hold
   double field_volume = -1;
   bool rigid = false;
@@ -39,6 +40,7 @@ struct Face {
     x += b.x;
     X += b.X;
     g += b.g;
+    history += b.history;
     if (b.field_volume > field_volume) field = b.field, field_volume = b.field_volume;
   }
 };
@@ -71,9 +73,10 @@ class FaceToFace {
                   ContactPair<Dim>& pair) const;
 
  private:
+  void look_back(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const;
   double cell_volume() const;
   double thickness(const Face<Dim>& a, const Face<Dim>& b) const;
-  double area_between(const Face<Dim>& a, const Face<Dim>& b, const PlaneInCells& plane) const;
+  double area_between(const Face<Dim>& a, const Face<Dim>& b, const Vec<Dim>& n) const;
   double relative_volume(const MeetingPlace<Dim>& place) const;
   double gap_by_volume(double volume_ratio) const;
   double material_gap(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const ContactPair<Dim>& pair,
@@ -82,7 +85,6 @@ class FaceToFace {
 
   const State<Dim>& state_;
   const Model<Dim>& model_;
-  bool cracks_have_areas_ = false;  ///< some law across a crack asks for the area
   std::vector<LabelledPoint<Dim>> labelled_;
 };
 

@@ -57,7 +57,9 @@ class NodeFinder {
     for (int node = 0; node < block_nodes<Dim>; ++node) collect_fields(node);
     const auto& c = model_.contact;
     const bool by_regression = c.normal == ContactNormal::logistic_regression || c.normal == ContactNormal::linear_regression;
-    if (model_.fields.size() > 1 && (by_regression || c.material_detection == MaterialDetection::regression)) collect_cloud();
+    const bool among_materials = model_.fields.size() > 1 && (by_regression || c.material_detection == MaterialDetection::regression);
+    const bool interfaces = model_.any_law([](const ContactLawSpec& law) { return std::holds_alternative<InterfaceContact>(law); });
+    if (among_materials || interfaces) collect_cloud(interfaces);
     for (ContactNode<Dim>& node : out_.nodes) {
       read_faces(node);
       collect_cracks(node);
@@ -159,12 +161,12 @@ class NodeFinder {
     out_.groups.resize(out_.groups.size() + static_cast<std::size_t>(groups));
   }
 
-  void collect_cloud() {
+  void collect_cloud(bool everywhere) {
     std::vector<bool> wanted(block_nodes<Dim>, false);
     bool any = false;
     for (const ContactNode<Dim>& node : out_.nodes) {
       for (std::uint32_t f = node.first_field + 1; f < node.end_field; ++f) {
-        if (layer(out_.fields[f].layer).field == layer(out_.fields[node.first_field].layer).field) continue;
+        if (!everywhere && layer(out_.fields[f].layer).field == layer(out_.fields[node.first_field].layer).field) continue;
         wanted[node.node] = any = true;
         break;
       }
@@ -185,6 +187,7 @@ class NodeFinder {
       part.x = sums.present();
       part.X = sums.original();
       part.g = sums.gradient();
+      part.history = sums.history();
       part.field = layer(field.layer).field;
       Face<Dim>& face = faces_[static_cast<std::size_t>(field.group)];
       face.cracks = without_joined(layer(field.layer).cracks, model_);

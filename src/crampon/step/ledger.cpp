@@ -48,6 +48,8 @@ void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
 template <int Dim>
 void close_ledger(State<Dim>& state, const Model<Dim>& model) {
   state.reactions.assign(model.conditions.size(), {});
+  const double in_interfaces = state.energy.interfaces;
+  state.energy.interfaces = 0;
   state.rigid_reactions.assign(model.rigid_bodies.size(), {});
   std::int64_t unsolved = 0, crowded = 0;
   for (auto& scratch : state.scratch) {
@@ -58,6 +60,7 @@ void close_ledger(State<Dim>& state, const Model<Dim>& model) {
     state.energy.damping += ledger.damping;
     state.energy.contact_loss += ledger.contact_loss;
     state.energy.friction_loss += ledger.friction_loss;
+    state.energy.interfaces += ledger.interface_energy;
     for (const auto& r : ledger.reactions) state.reactions[r.condition] += r.force;
     for (const auto& r : ledger.rigid) {
       state.rigid_reactions[r.body].force += r.on_material.force;
@@ -68,6 +71,7 @@ void close_ledger(State<Dim>& state, const Model<Dim>& model) {
     if (scratch.health.left_margin) state.must_reorder = true;
     ledger.clear();
   }
+  state.energy.contact_loss -= state.energy.interfaces - in_interfaces;  // taken from the particles, but not lost
   state.most_unsolved_nodes = std::max(state.most_unsolved_nodes, unsolved);
   state.most_crowded_nodes = std::max(state.most_crowded_nodes, crowded);
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// What stays the same during a run: grid, laws, conditions, choices of the algorithm. SI throughout.
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -8,7 +9,7 @@
 #include <vector>
 
 #include "crampon/contact/edge_map.hpp"
-#include "crampon/contact/law.hpp"
+#include "crampon/contact/friction.hpp"
 #include "crampon/contact/wall.hpp"
 #include "crampon/core/function.hpp"
 #include "crampon/core/options.hpp"
@@ -114,6 +115,13 @@ struct Model {
   int threads = 1;
 
   bool any_body_force() const { return !body_force.empty(); }
+  /// Does some contact law ask for areas, or for what particles remember of contact?
+  bool needs_areas() const { return any_law(needs_area); }
+  bool remembers_contact() const { return any_law(needs_history); }
+  template <class F>
+  bool any_law(F asks) const {
+    return std::any_of(field_laws.begin(), field_laws.end(), asks) || std::any_of(crack_laws.begin(), crack_laws.end(), asks);
+  }
   bool any_contact() const { return fields.size() > 1 || !crack_laws.empty(); }
   const ContactLawSpec& law_between(int a, int b) const {
     return field_laws[static_cast<std::size_t>(a) * fields.size() + static_cast<std::size_t>(b)];

@@ -25,7 +25,7 @@ namespace {
 /// What one particle adds to the contact sums of a node, before S_ip; the volume's gradient apart.
 template <int Dim>
 void add_contact_share(const Model<Dim>& model, const IndexVector<Dim>& node, double S, const Vec<Dim>& G, double m_p, double V_p,
-                       const Vec<Dim>& x_p, const Vec<Dim>& X_p, unsigned flip, ContactSums<Dim>& q) {
+                       double c_p, const Vec<Dim>& x_p, const Vec<Dim>& X_p, unsigned flip, ContactSums<Dim>& q) {
   Pack now = splat(0.), start = splat(0.);
   now[0] = V_p;
   Vec<Dim> g = G * V_p;
@@ -37,6 +37,7 @@ void add_contact_share(const Model<Dim>& model, const IndexVector<Dim>& node, do
     start[1 + k] = sign * (X_p[k] - x_i);
     if (mirrored) g[k] = -g[k];
   }
+  start[Dim == 2 ? 3 : 0] = m_p * c_p;
   q.r[0] = fused(splat(S), now, q.r[0]);
   q.r[1] = fused(splat(S), start, q.r[1]);
   if constexpr (Dim == 2) {
@@ -56,7 +57,8 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
   ContactSums<Dim>* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_contact);
   const Particles<Dim>& particles = state.particles;
   const auto first_node = state.blocks.list[b].first_node();
-  const bool volumes = model.contact.detection == ContactDetection::volume || model.fields.size() > 1;
+  const bool volumes = model.contact.detection == ContactDetection::volume || model.fields.size() > 1 || model.needs_areas();
+  const bool histories = particles.contact.size() > 0;
   for_packs<Dim, Shape>(
       state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
         const Material<Dim>& material = model.materials[run.material];
@@ -82,7 +84,8 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
               node[k] += lowest[k] + first_node[k] - T::offset;
               G[k] = stencil.G[n][k][l];
             }
-            add_contact_share<Dim>(model, node, stencil.S[n][l], G, m_p, volume[l], x_p, X_p, t.flip, tiles[t.layer * T::nodes + t.node]);
+            add_contact_share<Dim>(model, node, stencil.S[n][l], G, m_p, volume[l], histories ? particles.contact[p] : 0., x_p, X_p, t.flip,
+                                   tiles[t.layer * T::nodes + t.node]);
           }
         }
       });

@@ -64,6 +64,7 @@ void copy_particle(const Particles<Dim>& from, std::size_t a, Particles<Dim>& to
   for (int c = 0; c < stress_size<Dim>; ++c) lane(to.stress, b, stress_size<Dim>, c) = lane(source.stress, a, stress_size<Dim>, c);
   for (int c = 0; c < to.history_size; ++c) lane(to.history, b, to.history_size, c) = lane(source.history, a, to.history_size, c);
   to.original[b] = from.original[a];
+  if (to.contact.size() > 0) to.contact[b] = from.contact[a];
   to.id[b] = from.id[a];
   to.body[b] = from.body[a];
 }
@@ -200,7 +201,7 @@ void reorder(State<Dim>& state, const Model<Dim>& model) {
   first_run_of.push_back(runs.size());
 
   Particles<Dim> fresh;
-  fresh.allocate(pack, old.history_size);
+  fresh.allocate(pack, old.history_size, old.contact.size() > 0);
   parallel_for(runs.size(), model.threads, [&](std::size_t r) {
     std::size_t slot = std::size_t{runs[r].first_pack} * lanes;
     const std::size_t end = std::size_t{runs[r].end_pack} * lanes;

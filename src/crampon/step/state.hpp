@@ -43,6 +43,7 @@ struct BlockLedger {
     std::uint16_t condition;
     Vec<Dim> force;
   };
+  double interface_energy = 0;      ///< in interfaces at the end of the step, J
   std::vector<Reaction> reactions;  ///< N
   struct BodyReaction {
     std::uint16_t body;
@@ -52,7 +53,7 @@ struct BlockLedger {
   int unsolved_nodes = 0;  ///< contact at a node did not converge
   int crowded_nodes = 0;   ///< nodes with more than two cracks
   void clear() {
-    load_work = body_work = damping = contact_loss = friction_loss = boundary_work = 0;
+    interface_energy = load_work = body_work = damping = contact_loss = friction_loss = boundary_work = 0;
     reactions.clear();
     rigid.clear();
     unsolved_nodes = crowded_nodes = 0;
@@ -72,6 +73,7 @@ struct BlockHealth {
 /// Energy totals since the start, J.
 struct EnergyTotals {
   double load_work = 0, body_work = 0, boundary_work = 0, damping = 0, contact_loss = 0, friction_loss = 0;
+  double interfaces = 0;  ///< held by interfaces now
 };
 
 /// Per block, per step: what belongs to nodes with conditions or contact.

@@ -77,10 +77,32 @@ void update_velocities_and_project(State<Dim>& state, const Model<Dim>& model, s
                         });
 }
 
+namespace {
+
+/// Particles take up what the nodes in contact beside them have gained: the mean over those nodes.
+template <int Dim, class Shape>
+void remember_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  const ContactSums<Dim>* gains = gathered<Dim, Shape>(state, b, state.nodes.contact);
+  for_packs<Dim, Shape>(state, model, b,
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
+                          for (int l = 0; l < lanes; ++l) {
+                            double gain = 0, weight = 0;
+                            for_stencil<Dim, Shape>(stencil, targets, l, gains, [&](const ContactSums<Dim>& c, int n, unsigned) {
+                              gain += stencil.S[n][l] * c.r[0][0];
+                              weight += stencil.S[n][l] * c.r[0][1];
+                            });
+                            if (weight > 0) state.particles.contact[std::size_t{pack} * lanes + l] += gain / weight;
+                          }
+                        });
+}
+
+}  // namespace
+
 template <int Dim, class Shape>
 void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, double stress_dt, bool with_velocities) {
   if (!state.blocks.list[b].has_particles()) return;
   Particles<Dim>& particles = state.particles;
+  if (particles.contact.size() > 0 && state.nodes.layers[b].sums_contact) remember_contact<Dim, Shape>(state, model, b);
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
   const Advance<Dim> advance(dt, with_velocities ? dt : 0.);
   constexpr int position_pack = 0, width = motion_packs<Dim>;

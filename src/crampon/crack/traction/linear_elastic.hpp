@@ -1,0 +1,19 @@
+#pragma once
+#include "crampon/core/declaration.hpp"
+#include "crampon/core/vector.hpp"
+#include "crampon/crack/traction/history.hpp"
+
+namespace crampon {
+
+/// Springs that never fail.
+struct LinearElasticTraction {
+  double normal_stiffness = 0, shear_stiffness = 0;  ///< Pa/m
+
+  static constexpr bool acts_closed = false;
+  Traction respond(const PerMode& opening, double time, const Vec<3>& x, TractionHistory& history) const;
+  double largest_stiffness() const { return normal_stiffness > shear_stiffness ? normal_stiffness : shear_stiffness; }
+  PerMode toughness() const;
+  static const Declaration<LinearElasticTraction>& declaration();
+};
+
+}  // namespace crampon
