@@ -154,6 +154,12 @@ const Declaration<CrackInput>& crack_declaration() {
                     "longer segments are divided evenly; left out: half a cell")
           .flag("fixed", &CrackInput::fixed, "the crack stays where it is while the body moves")
           .one_of("contact", &CrackInput::contact, contact_laws, "what its faces do when they meet")
+          .one_of("traction", &CrackInput::traction, traction_laws,
+                  "tractions between its faces as they open: cohesion, bridging, pressure")
+          .one_of("traction_region", &CrackInput::traction_region, shapes,
+                  "only the part of the crack that starts in this region bears the traction")
+          .quantity("thickness", &CrackInput::thickness, "m", Bounds::positive(),
+                    "extent out of the plane on which the traction acts; left out: that of the bodies")
           .check([](const CrackInput& in, Diagnostics& diagnostics) {
             if (in.points.empty() && !in.arc)
               diagnostics.add("", "neither points nor arc is given", "the crack has no place", "add points or arc");

@@ -16,6 +16,7 @@
 #include "crampon/core/function.hpp"
 #include "crampon/core/options.hpp"
 #include "crampon/core/vector.hpp"
+#include "crampon/crack/traction/law.hpp"
 #include "crampon/geometry/shape.hpp"
 #include "crampon/material/material.hpp"
 
@@ -142,6 +143,9 @@ struct CrackInput : Located {
   std::optional<double> max_segment;  ///< m; longer segments are divided evenly; default: half a cell
   bool fixed = false;                 ///< fixed in space
   ContactLawSpec contact;             ///< law between its faces (contact/law.hpp)
+  TractionLawSpec traction;           ///< between its faces as they open (crack/traction/law.hpp)
+  ShapePtr traction_region;           ///< vertices that bear it; none: all
+  std::optional<double> thickness;    ///< m; default: that of the bodies
 };
 
 /// [[boundary]]: nodal velocity prescribed in a region.

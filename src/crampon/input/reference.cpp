@@ -85,7 +85,10 @@ class PageWriter {
 
   // Only tables of the top level are written with their brackets alone.
   std::string heading_of(const char* open, const Entry& entry, const char* close) const {
-    return at_top_ ? code(open + entry.key + close) : code(entry.key);
+    if (at_top_) return code(open + entry.key + close);
+    // Tables of one key in several records.
+    const std::string& name = entry.record().name();
+    return name == entry.key ? code(entry.key) : fmt::format("{} ({})", code(entry.key), name);
   }
 
   std::string mention(const Entry& entry, const std::string& heading) {

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* series_names[] = {"particles", "cracks", "grid"};
-constexpr const char* file_names[] = {"particles.pvd",       "cracks.pvd",          "grid.pvd", "history.csv",
+constexpr const char* file_names[] = {"particles.pvd",       "cracks.pvd",          "grid.pvd", "history.csv", "events.csv",
                                       "input.resolved.toml", "input.original.toml", "run.json"};
 
 std::string frame_name(std::string_view series, std::size_t index) { return fmt::format("{}_{:06}.vtp", series, index); }

@@ -24,7 +24,7 @@ class ResultsExist : public std::runtime_error {
 enum class Overwrite { refuse, replace };
 
 /// Names and time series of a results folder:
-///   particles.pvd  particles/particles_000000.vtp ...     history.csv
+///   particles.pvd  particles/particles_000000.vtp ...     history.csv, events.csv (when something failed)
 ///   cracks.pvd     cracks/cracks_000000.vtp ...           run.json
 ///   grid.pvd       grid/grid_000000.vtp ...               input.resolved.toml, input.original.toml
 class ResultsFolder {
@@ -39,6 +39,7 @@ class ResultsFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path history() const { return path_ / "history.csv"; }
+  std::filesystem::path events() const { return path_ / "events.csv"; }
   std::filesystem::path run_record() const { return path_ / "run.json"; }
   std::filesystem::path resolved_input() const { return path_ / "input.resolved.toml"; }
   std::filesystem::path original_input() const { return path_ / "input.original.toml"; }

@@ -11,6 +11,7 @@
 #include "crampon/geometry/arc.hpp"
 #include "crampon/run/build_bodies.hpp"
 #include "crampon/run/build_contact.hpp"
+#include "crampon/step/crack_tractions.hpp"
 
 namespace crampon {
 
@@ -140,8 +141,31 @@ void build_conditions(const Problem& problem, Model<Dim>& model, std::vector<Dia
   check_contradictions(model, stated, errors);
 }
 
-void build_cracks(const Problem& problem, const Grid<2>& grid, Cracks<2>& cracks, std::vector<ContactLawSpec>& laws,
-                  std::vector<Diagnostic>& errors) {
+CrackTraction build_traction(const Problem& problem, const CrackInput& in, const Crack<2>& crack, double slack,
+                             std::vector<Diagnostic>& errors) {
+  CrackTraction out;
+  out.law = in.traction;
+  if (!out.acts()) return out;
+  out.thickness = in.thickness.value_or(problem.bodies.empty() ? 1. : problem.bodies.front().thickness);
+  for (const BodyInput& body : problem.bodies) {
+    if (in.thickness || body.thickness == out.thickness) continue;
+    errors.push_back(
+        {in.at("traction"), "the bodies differ in thickness", "it is not clear on which the traction acts", "add thickness to the crack"});
+    break;
+  }
+  bool any = false;
+  for (const Vec<2>& x : crack.plane) {
+    out.bears.push_back(!in.traction_region || in.traction_region->contains(in_space(x), slack));
+    any = any || out.bears.back();
+  }
+  if (!any)
+    errors.push_back({in.at("traction_region"), fmt::format("no vertex of the crack \"{}\" lies in the region", in.name),
+                      "the traction would act nowhere", "enlarge the region"});
+  return out;
+}
+
+void build_cracks(const Problem& problem, Model<2>& model, Cracks<2>& cracks, std::vector<Diagnostic>& errors) {
+  const Grid<2>& grid = model.grid;
   for (const CrackInput& in : problem.cracks) {
     const double longest = in.max_segment.value_or(0.5 * grid.smallest_cell());
     Crack<2> crack;
@@ -166,8 +190,9 @@ void build_cracks(const Problem& problem, const Grid<2>& grid, Cracks<2>& cracks
     crack.closed = crack.plane.size() > 3 && crack.plane.front() == crack.plane.back();
     crack.upper = crack.lower = crack.original = crack.plane;
     for (VertexId v = 0; v + 1 < crack.plane.size(); ++v) crack.facets.push_back({v, v + 1});
+    model.crack_laws.push_back(in.contact);
+    model.tractions.push_back(build_traction(problem, in, crack, 1e-9 * grid.smallest_cell(), errors));
     cracks.list.push_back(std::move(crack));
-    laws.push_back(in.contact);
   }
 }
 
@@ -345,13 +370,14 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   model.bodies = bodies.names;
   build_conditions(problem, model, errors);
   build_contact(problem, model, out.state, errors);
-  if constexpr (Dim == 2) build_cracks(problem, model.grid, out.state.cracks, model.crack_laws, errors);
+  if constexpr (Dim == 2) build_cracks(problem, model, out.state.cracks, errors);
   if (errors.empty()) {
     LoadBuilder<Dim> loads(problem, bodies, model, errors);
     for (const LoadInput& in : problem.loads) loads.add(in);
   }
   if (!errors.empty()) throw InputError(std::move(errors));
   place_particles(bodies, model, out.state);
+  start_tractions(out.state, model);
   for (const auto& p : bodies.particles) out.original_volume.push_back(p.volume);
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -45,6 +46,7 @@ class Recorder {
     const Clock::time_point start = Clock::now();
     if (frames_.take(simulation_.time(), simulation_.steps_done(), slack)) write_frame();
     if (rows_.take(simulation_.time(), simulation_.steps_done(), slack)) write_row();
+    write_events();
     seconds_ += seconds_between(start, Clock::now());
   }
   /// Frame and row of the present state, unless they are there already.
@@ -66,6 +68,11 @@ class Recorder {
     if (problem_.output.grid && simulation_.steps_done() > 0) folder_.write_grid(simulation_.nodes(), precision);
     last_frame_ = simulation_.steps_done();
   }
+  void write_events() {
+    if (events_written_ == simulation_.event_count()) return;
+    if (!events_) events_.emplace(folder_.events(), simulation_.event_columns());
+    for (; events_written_ < simulation_.event_count(); ++events_written_) events_->write_row(simulation_.event_row(events_written_));
+  }
   void write_row() {
     history_.write_row(simulation_.history_row());
     last_row_ = simulation_.steps_done();
@@ -75,6 +82,8 @@ class Recorder {
   const Simulation& simulation_;
   ResultsFolder folder_;
   HistoryWriter history_;
+  std::optional<HistoryWriter> events_;
+  std::size_t events_written_ = 0;
   FrameSchedule frames_;
   HistorySchedule rows_;
   std::int64_t last_frame_ = -1, last_row_ = -1;  // steps done when last written

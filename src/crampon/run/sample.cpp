@@ -189,6 +189,18 @@ CrackFrame sample_cracks<2>(const State<2>& state) {
     frame.begin.push_back(static_cast<std::int64_t>(frame.plane.size() / 3));
   }
   frame.fields = {opening, sliding};
+  if (std::any_of(state.tractions.begin(), state.tractions.end(), [](const auto& t) { return !t.history.empty(); })) {
+    Field normal{"traction_normal", "Pa", 1, {}}, shear{"traction_shear", "Pa", 1, {}}, damage{"damage", "1", 1, {}};
+    for (std::size_t c = 0; c < state.cracks.size(); ++c) {
+      for (std::size_t v = 0; v < state.cracks.list[c].plane.size(); ++v) {
+        const TractionHistory h = state.tractions[c].history.empty() ? TractionHistory{} : state.tractions[c].history[v];
+        normal.values.push_back(h.normal_traction);
+        shear.values.push_back(h.shear_traction);
+        damage.values.push_back(h.damage);
+      }
+    }
+    frame.fields.insert(frame.fields.end(), {normal, shear, damage});
+  }
   return frame;
 }
 

@@ -38,7 +38,7 @@ class Engine final : public Simulation {
 
   void step(double longest) override {
     if (!time_.step && watches_wave_speed_ && state_.step % 10 == 0 && state_.step > 0) time_step_ = time_.courant * stable_time_step();
-    double dt = time_step_;
+    double dt = time_.step ? time_step_ : std::fmin(time_step_, state_.traction_time_step);
     const double left = std::fmin(longest, end_time_or_infinity()) - state_.time;
     bool hits = false;
     if (left <= dt * (1 + 1e-9)) {
@@ -82,9 +82,21 @@ class Engine final : public Simulation {
   PointFrame nodes() const override { return sample_nodes(state_, model_); }
 
   std::vector<HistoryColumn> history_columns() const override {
-    std::vector<HistoryColumn> c = {{"time", "s"},         {"kinetic_energy", "J"},  {"strain_energy", "J"},    {"total_energy", "J"},
-                                    {"load_work", "J"},    {"body_force_work", "J"}, {"boundary_work", "J"},    {"damping_loss", "J"},
-                                    {"contact_loss", "J"}, {"friction_loss", "J"},   {"interface_energy", "J"}, {"energy_closure", "J"}};
+    std::vector<HistoryColumn> c = {{"time", "s"},
+                                    {"kinetic_energy", "J"},
+                                    {"strain_energy", "J"},
+                                    {"total_energy", "J"},
+                                    {"load_work", "J"},
+                                    {"body_force_work", "J"},
+                                    {"boundary_work", "J"},
+                                    {"damping_loss", "J"},
+                                    {"contact_loss", "J"},
+                                    {"friction_loss", "J"},
+                                    {"interface_energy", "J"},
+                                    {"cohesive_energy", "J"},
+                                    {"cohesive_loss_I", "J"},
+                                    {"cohesive_loss_II", "J"},
+                                    {"energy_closure", "J"}};
     for (int k = 0; k < Dim; ++k) c.push_back({std::string("momentum_") + axis_names[k], "kg m/s"});
     c.push_back({"angular_momentum_z", "kg m2/s"});
     for (const auto& condition : model_.conditions) {
@@ -111,10 +123,26 @@ class Engine final : public Simulation {
     const auto sums = sum_particles(state_, model_);
     const EnergyTotals& e = state_.energy;
     const double total = sums.kinetic + sums.strain;
-    const double closure =
-        total + e.damping + e.contact_loss + e.friction_loss + e.interfaces - e.load_work - e.body_work - e.boundary_work - initial_energy_;
-    std::vector<double> row = {state_.time,     sums.kinetic, sums.strain,    total,           e.load_work,  e.body_work,
-                               e.boundary_work, e.damping,    e.contact_loss, e.friction_loss, e.interfaces, closure};
+    const CohesiveTotals& cohesive = state_.cohesive;
+    const double load_work = e.load_work + cohesive.work_of_pressure;
+    const double held = e.interfaces + cohesive.stored,
+                 lost = e.damping + e.contact_loss + e.friction_loss + cohesive.dissipated_normal + cohesive.dissipated_shear;
+    const double closure = total + held + lost - load_work - e.body_work - e.boundary_work - initial_energy_;
+    std::vector<double> row = {state_.time,
+                               sums.kinetic,
+                               sums.strain,
+                               total,
+                               load_work,
+                               e.body_work,
+                               e.boundary_work,
+                               e.damping,
+                               e.contact_loss,
+                               e.friction_loss,
+                               e.interfaces,
+                               cohesive.stored,
+                               cohesive.dissipated_normal,
+                               cohesive.dissipated_shear,
+                               closure};
     for (int k = 0; k < Dim; ++k) row.push_back(sums.momentum[k]);
     row.push_back(sums.angular);
     for (std::size_t c = 0; c < model_.conditions.size(); ++c) {
@@ -141,6 +169,21 @@ class Engine final : public Simulation {
     return row;
   }
 
+  std::vector<HistoryColumn> event_columns() const override {
+    std::vector<HistoryColumn> c = {{"time", "s"}, {"crack", "1"}};
+    for (int k = 0; k < Dim; ++k) c.push_back({axis_names[k], "m"});
+    c.insert(c.end(), {{"G_I", "J/m2"}, {"G_II", "J/m2"}});
+    return c;
+  }
+  std::size_t event_count() const override { return state_.events.size(); }
+  std::vector<double> event_row(std::size_t event) const override {
+    const FailureEvent<Dim>& e = state_.events[event];
+    std::vector<double> row = {e.time, static_cast<double>(e.crack)};
+    for (int k = 0; k < Dim; ++k) row.push_back(e.x[k]);
+    row.insert(row.end(), {e.G_I, e.G_II});
+    return row;
+  }
+
   std::uint64_t state_hash() const override { return hash_state(state_); }
   std::vector<PhaseTime> phases() const override {
     std::vector<PhaseTime> out;
@@ -155,6 +198,13 @@ class Engine final : public Simulation {
       out.push_back(fmt::format("contact did not converge at up to {} nodes of a step; smaller cells where cracks meet usually help",
                                 state_.most_unsolved_nodes));
     }
+    if (time_.step && *time_.step > state_.traction_time_step) {
+      out.push_back(
+          fmt::format("the time step of {:.3g} s is longer than the {:.3g} s that the stiffest traction law bears: the run may be unstable",
+                      *time_.step, state_.traction_time_step));
+    }
+    if (!state_.events.empty())
+      out.push_back(fmt::format("traction laws failed at {} crack vertices; see events.csv", state_.events.size()));
     if (state_.removed > 0) out.push_back(fmt::format("{} particles left the grid and were removed", state_.removed));
     return out;
   }

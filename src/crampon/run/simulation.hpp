@@ -57,6 +57,11 @@ class Simulation {
   virtual std::vector<HistoryColumn> history_columns() const = 0;
   virtual std::vector<double> history_row() const = 0;  ///< at the present time, SI, one value per column; the first column is the time
 
+  /// What failed since the start, for events.csv: crack vertices whose traction law is used up.
+  virtual std::vector<HistoryColumn> event_columns() const { return {}; }
+  virtual std::size_t event_count() const { return 0; }
+  virtual std::vector<double> event_row(std::size_t /*event*/) const { return {}; }
+
   /// Hash of positions, velocities, stresses and crack vertices to the last bit: equal for any number of threads.
   virtual std::uint64_t state_hash() const = 0;
   virtual std::vector<PhaseTime> phases() const = 0;

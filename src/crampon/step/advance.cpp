@@ -5,6 +5,7 @@
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/assign_velocity_fields.hpp"
 #include "crampon/step/boundary.hpp"
+#include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/find_contacts.hpp"
 #include "crampon/step/guard.hpp"
 #include "crampon/step/instantiate.hpp"
@@ -85,6 +86,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   phases.blocks("stress and forces", [&](B b) {                                                                  // Tasks 2, 3
     update_stress_and_project_forces<Dim, Shape>(state, model, b, dt, stress_first ? stress_dt : 0., load_values, body_force);
   });
+  if (model.any_tractions()) phases.serial("crack tractions", [&] { spread_tractions(state, model); });
   phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });  // Tasks 3, 4
   phases.blocks("account loads", [&](B b) { account_loads<Dim, Shape>(state, model, b, dt, load_values, body_force); });
   if (re_extrapolates) {
@@ -95,6 +97,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     remember_contacts(state);
     remember_rigid_conditions(state, model);
     move_cracks(state, model, dt);
+    update_tractions(state, model, dt);
   });
   phases.blocks("stress and positions", [&](B b) {  // Tasks 5, 6
     finish_particles<Dim, Shape>(state, model, b, dt, stress_last ? stress_dt : 0., !re_extrapolates);

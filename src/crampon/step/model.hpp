@@ -14,6 +14,7 @@
 #include "crampon/core/function.hpp"
 #include "crampon/core/options.hpp"
 #include "crampon/crack/symmetry_fold.hpp"
+#include "crampon/crack/traction/law.hpp"
 #include "crampon/geometry/shape.hpp"
 #include "crampon/material/material_law.hpp"
 #include "crampon/shape/stencil.hpp"
@@ -67,6 +68,14 @@ struct VelocityCondition {
   int rigid_body = -1;              ///< that prescribes it; its nodes are found anew in each step
 };
 
+/// A traction law on a crack.
+struct CrackTraction {
+  TractionLawSpec law;
+  double thickness = 1;     ///< m
+  std::vector<bool> bears;  ///< per vertex: the law acts there
+  bool acts() const { return !std::holds_alternative<NoTraction>(law); }
+};
+
 /// Forces on particles, by particle id: value(t) times the particle's share, N.
 template <int Dim>
 struct ParticleLoad {
@@ -87,6 +96,7 @@ struct Model {
   std::vector<RigidBody<Dim>> rigid_bodies;
   std::vector<std::string> bodies;
   std::vector<ContactLawSpec> crack_laws;  ///< per crack
+  std::vector<CrackTraction> tractions;    ///< per crack
   std::vector<VelocityCondition<Dim>> conditions;
   std::vector<SymmetryPlane> symmetries;
   std::vector<ParticleLoad<Dim>> loads;
@@ -115,6 +125,9 @@ struct Model {
   int threads = 1;
 
   bool any_body_force() const { return !body_force.empty(); }
+  bool any_tractions() const {
+    return std::any_of(tractions.begin(), tractions.end(), [](const CrackTraction& t) { return t.acts(); });
+  }
   /// Does some contact law ask for areas, or for what particles remember of contact?
   bool needs_areas() const { return any_law(needs_area); }
   bool remembers_contact() const { return any_law(needs_history); }

@@ -3,6 +3,7 @@
 #include "crampon/step/adjust_contact.hpp"
 #include "crampon/step/assemble.hpp"
 #include "crampon/step/boundary.hpp"
+#include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/find_contacts.hpp"
 #include "crampon/step/instantiate.hpp"
 
@@ -104,6 +105,7 @@ void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, d
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
     assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_force, &nodes.force[first_node_of(state, b, l)]);
   }
+  add_tractions(state, b);
   if (accounts) {
     start_velocity.resize(end - first);
     for_deformable(state, model, b, [&](std::size_t i) {

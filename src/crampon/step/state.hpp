@@ -4,11 +4,13 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "crampon/contact/memory.hpp"
 #include "crampon/contact/node_solve.hpp"
+#include "crampon/crack/traction/history.hpp"
 #include "crampon/state/blocks.hpp"
 #include "crampon/state/cracks.hpp"
 #include "crampon/state/nodes.hpp"
@@ -76,12 +78,44 @@ struct EnergyTotals {
   double interfaces = 0;  ///< held by interfaces now
 };
 
+/// A force on a node in one field.
+template <int Dim>
+struct NodalForce {
+  std::size_t slot = 0;  ///< in the nodal arrays
+  Vec<Dim> force;        ///< N
+};
+
+/// Tractions on one crack, per vertex; empty without a law.
+template <int Dim>
+struct CrackTractionState {
+  std::vector<TractionHistory> history;
+  std::vector<Vec<Dim>> force;  ///< on the upper surface in the next step, N
+  std::vector<double> stored;   ///< J/m2
+  std::vector<double> area;     ///< m2; 0 where the law does not act
+};
+
+/// All traction laws together, J.
+struct CohesiveTotals {
+  double stored = 0, dissipated_normal = 0, dissipated_shear = 0;
+  double work_of_pressure = 0;  ///< done on the body from outside
+};
+
+/// A vertex whose traction law has failed.
+template <int Dim>
+struct FailureEvent {
+  double time = 0;  ///< s
+  std::size_t crack = 0;
+  Vec<Dim> x;                ///< m
+  double G_I = 0, G_II = 0;  ///< dissipated there, J/m2
+};
+
 /// Per block, per step: what belongs to nodes with conditions or contact.
 template <int Dim>
 struct BlockScratch {
   std::vector<FixedComponent> fixed;
   std::vector<double> p_int;  ///< [layer][fixed]: momentum before the boundary condition (N13 sec. 2.3)
   std::vector<LoadedParticle<Dim>> loaded;
+  std::vector<NodalForce<Dim>> tractions;
   ContactNodes<Dim> contact;
   BlockLedger<Dim> ledger;
   BlockHealth health;
@@ -102,9 +136,13 @@ struct State {
   Nodes<Dim> nodes;
   std::vector<BlockScratch<Dim>> scratch;  ///< per block
   ContactMemory memory;
-  std::vector<RigidMotion<Dim>> rigid;              ///< per rigid body
-  std::vector<RigidReaction<Dim>> rigid_reactions;  ///< per rigid body, last step
-  std::vector<std::int64_t> prescribed_by_rigid;    ///< node number * Dim + axis, ascending: last step
+  std::vector<CrackTractionState<Dim>> tractions;  ///< per crack
+  CohesiveTotals cohesive;
+  double traction_time_step = std::numeric_limits<double>::infinity();  ///< longest that the springs of traction laws bear, s
+  std::vector<FailureEvent<Dim>> events;                                ///< since the start
+  std::vector<RigidMotion<Dim>> rigid;                                  ///< per rigid body
+  std::vector<RigidReaction<Dim>> rigid_reactions;                      ///< per rigid body, last step
+  std::vector<std::int64_t> prescribed_by_rigid;                        ///< node number * Dim + axis, ascending: last step
   std::vector<bool> condition_was_active;
   std::vector<double> initial_volume;  ///< per node number: volume of the uncut body at the start, m2 or m3 (CONVENTIONS 10)
   bool must_reorder = true;

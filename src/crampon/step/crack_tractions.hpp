@@ -1,0 +1,27 @@
+#pragma once
+/// Traction laws on cracks (docs/theory/traction.md): tractions are found once a step from the opening of the surfaces (Task 8) and act as
+/// forces on the fields beside the crack in the next (N13 sec. 2.4).
+
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// Areas of vertices, before the first step.
+template <int Dim>
+void start_tractions(State<Dim>& state, const Model<Dim>& model);
+
+/// Between Tasks 2 and 3: shares the forces on the surface points among the nodes about them, by mass and linear functions; the longest
+/// stable step. Serial.
+template <int Dim>
+void spread_tractions(State<Dim>& state, const Model<Dim>& model);
+
+/// Task 3, own nodes of a block: adds them.
+template <int Dim>
+void add_tractions(State<Dim>& state, std::size_t block);
+
+/// Task 8, after the cracks have moved: tractions at the end of the step, what is stored and dissipated, and failures. Serial.
+template <int Dim>
+void update_tractions(State<Dim>& state, const Model<Dim>& model, double dt);
+
+}  // namespace crampon
