@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "run_case.hpp"
 
 namespace crampon::test {
@@ -136,6 +138,119 @@ INSTANTIATE_TEST_SUITE_P(
                     ContactCase{"normal = \"average_gradient\"\nmaterial_detection = \"regression\"", "gimp", 1},
                     ContactCase{"normal = \"linear_regression\"\nmaterial_detection = \"volume\"", "linear", 0},
                     ContactCase{"normal = \"more_volume\"\nmaterial_detection = \"displacement\"", "bspline", 0}));
+
+/// Contact laws of every kind, rigid bodies, walls, interfaces that fail and cohesion at once.
+std::string everything(const std::string& shape_functions) {
+  return four_bodies(R"in(
+default = { law = "slip_weakening", friction = 0.1, static_friction = 0.5, distance = 0.001 }
+)in",
+                     "shape_functions = \"" + shape_functions + "\"\nbody_force = [0, -10]", 2, "{ law = \"coulomb\", friction = 0.3 }",
+                     R"in(
+[crack.traction]
+law = "triangular"
+normal = { strength = 1e4, toughness = 2, stiffness = 1e8 }
+shear = { strength = 1e4, toughness = 2, stiffness = 1e8 }
+[[contact_pair]]
+between = ["left", "right"]
+contact = { law = "interface", tension = 1e8, tangential = 1e8, normal_strength = 3e4, shear_strength = 3e4, friction = 0.2 }
+[[contact_pair]]
+between = ["top", "right"]
+contact = { law = "adhesive", shear_strength = 1e3, normal_strength = 1e3, friction = 0.2 }
+[[rigid]]
+name = "ram"
+shape = { kind = "disk", centre = [0.0635, 0.12], radius = 0.035 }
+velocity = [7, 0]
+spin = [40]
+[[rigid]]
+name = "clamp"
+shape = { kind = "rectangle", low = [0.28, 0.08], high = [0.31, 0.12] }
+velocity = [-1, 0]
+role = "boundary"
+[[wall]]
+name = "floor"
+kind = "half_space"
+point = [0, 0.088]
+normal = [0.1, 1]
+velocity = [0, 0.5]
+)in");
+}
+
+class Everything : public testing::TestWithParam<const char*> {};
+
+TEST_P(Everything, IsTheSameToTheBitForAnyNumberOfThreads) {
+  std::uint64_t one = 0;
+  for (const int threads : {1, 2, 3, 5}) {
+    const auto simulation = make(everything(GetParam()), {}, threads);
+    std::map<std::string, double> largest;
+    run(*simulation, [&](Simulation& s) {
+      for (const char* name :
+           {"friction_loss", "reaction_x.ram", "torque_z.ram", "reaction_x.clamp", "reaction_y.floor", "cohesive_energy"})
+        largest[name] = std::fmax(largest[name], std::fabs(value(s, name)));
+    });
+    if (threads == 1) {
+      one = simulation->state_hash();
+      const double energy = value(*simulation, "total_energy");
+      RecordProperty("closure", fmt::format("{:.2e}", value(*simulation, "energy_closure") / energy));
+      EXPECT_LT(std::fabs(value(*simulation, "energy_closure")), 0.05 * energy);
+      // All of it takes part.
+      for (const auto& [name, most] : largest) EXPECT_GT(most, 0) << name;
+    } else {
+      EXPECT_EQ(simulation->state_hash(), one) << threads << " threads";
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Shapes, Everything, testing::Values("linear", "gimp", "bspline"));
+
+/// Blocks in space that meet obliquely on a rigid floor: momentum across, energy, and the floor's reaction.
+TEST(MaterialsInSpace, CollideOnAFloor) {
+  for (const char* floor : {"[[wall]]\nname = \"floor\"\nkind = \"half_space\"\npoint = [0, 0, 0.04]\nnormal = [0, 0, 1]\n",
+                            "[[rigid]]\nname = \"floor\"\nshape = { kind = \"box\", low = [0, 0, 0], high = [0.32, 0.2, 0.04] }\n"}) {
+    const auto simulation = make(std::string(R"in(
+analysis = "three_dimensional"
+[grid]
+origin = [0, 0, 0]
+size = [0.32, 0.2, 0.2]
+cell = 0.02
+[time]
+steps = 80
+courant = 0.3
+[method]
+shape_functions = "gimp"
+[contact]
+fields = "bodies"
+default = { law = "coulomb", friction = 0.3 }
+[[material]]
+name = "soft"
+law = "neo_hookean"
+E = 1e6
+nu = 0.3
+density = 1000
+[[body]]
+name = "a"
+material = "soft"
+shape = { kind = "box", low = [0.06, 0.06, 0.06], high = [0.14, 0.14, 0.12] }
+velocity = [2, 0.5, -2]
+[[body]]
+name = "b"
+material = "soft"
+shape = { kind = "sphere", centre = [0.19, 0.1, 0.1], radius = 0.041 }
+velocity = [-2, -0.5, -2]
+)in") + floor);
+    const double energy = value(*simulation, "total_energy"), z = value(*simulation, "momentum_z");
+    double impulse = 0, time = 0, highest = 0;
+    run(*simulation, [&](Simulation& s) {
+      impulse += value(s, "reaction_z.floor") * (s.time() - time);
+      time = s.time();
+      highest = std::fmax(highest, value(s, "total_energy"));
+    });
+    // The floor's reaction is all that changes the momentum normal to it; sums over 80 steps.
+    EXPECT_NEAR(value(*simulation, "momentum_z") - z, impulse, 1e-11 * std::fabs(z));
+    EXPECT_GT(impulse, 0.1 * std::fabs(z));
+    EXPECT_LE(highest, 1.002 * energy);
+    EXPECT_LT(std::fabs(value(*simulation, "energy_closure")), 0.02 * energy);
+    RecordProperty("closure", fmt::format("{:.2e}", value(*simulation, "energy_closure") / energy));
+  }
+}
 
 }  // namespace
 }  // namespace crampon::test

@@ -41,10 +41,10 @@ class Engine final : public Simulation {
     double dt = time_.step ? time_step_ : std::fmin(time_step_, state_.traction_time_step);
     const double left = std::fmin(longest, end_time_or_infinity()) - state_.time;
     bool hits = false;
-    if (left <= dt * (1 + 1e-9)) {
+    if (left > 0 && left <= dt * (1 + 1e-9)) {
       dt = left;
       hits = true;
-    } else if (!time_.step && left < 2 * dt) {
+    } else if (left > 0 && !time_.step && left < 2 * dt) {
       dt = 0.5 * left;  // no sliver of a step at the end
     }
     advance<Dim, Shape>(state_, model_, dt);
@@ -195,7 +195,7 @@ class Engine final : public Simulation {
     if (state_.most_crowded_nodes > 0)
       out.push_back(fmt::format("up to {} nodes saw more than two cracks at once", state_.most_crowded_nodes));
     if (state_.most_unsolved_nodes > 0) {
-      out.push_back(fmt::format("contact did not converge at up to {} nodes of a step; smaller cells where cracks meet usually help",
+      out.push_back(fmt::format("contact did not converge at up to {} nodes of a step; smaller cells where cracks or several bodies meet usually help",
                                 state_.most_unsolved_nodes));
     }
     if (time_.step && *time_.step > state_.traction_time_step) {

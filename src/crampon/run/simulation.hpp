@@ -37,7 +37,7 @@ class Simulation {
 
   /// Advances by one time step. Throws RunError (NaN, particle out of the grid, inverted particle); the state before the step is
   /// then no longer complete, but particles() still shows it for inspection.
-  /// longest: do not step further than this time (s), so that output times are hit exactly.
+  /// longest: do not step further than this time (s), so that output times are hit exactly; a time that is not ahead is no limit.
   virtual void step(double longest) = 0;
 
   virtual double time() const = 0;  ///< s

@@ -197,7 +197,11 @@ void impose_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
     auto at = std::find_if(reactions.begin(), reactions.end(), [&](const auto& r) { return r.condition == c.condition; });
     if (at == reactions.end()) at = reactions.insert(reactions.end(), {c.condition, {}});
     at->force[c.axis] += reaction;
-    if (!symmetry) scratch.ledger.boundary_work += reaction * 0.5 * (c.v_old + c.v_new) * dt;
+    if (symmetry) return;
+    scratch.ledger.boundary_work += reaction * 0.5 * (c.v_old + c.v_new) * dt;
+    // A sudden start is an inelastic impact: what the condition gives and the body does not get.
+    if (c.fresh && model.fixed_force == FixedForce::incremental && p[Dim] > 0)
+      scratch.ledger.contact_loss += reaction * 0.5 * (c.v_old - p[c.axis] / p[Dim]) * dt;
   });
 }
 
