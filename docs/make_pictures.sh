@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Runs the paper's problems at full resolution and draws every picture of the documentation: docs/make_pictures.sh [FOLDER FOR RESULTS]
+# Runs the examples at full resolution and draws every picture of the documentation: docs/make_pictures.sh [FOLDER FOR RESULTS]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 results=${1:-results}
-run() { ./run.sh "examples/paper/$1.toml" --output "$results/$2" --force --quiet "${@:3}"; }
+run() { ./run.sh "examples/${3:-paper}/$1.toml" --output "$results/$2" --force --quiet "${@:4}"; }
 draw() { ./run.sh draw "$results/$1" "${@:2}"; }
 
 run dcb dcb
@@ -12,6 +12,10 @@ run disks disks
 draw disks --quantity stress_yy --palette grey --symmetric --time 0 "6 ms" "12.5 ms" "26 ms" --panel 2x2 --output docs/pictures/disks.png
 run five_disks five_disks
 draw five_disks --fringes --frame -1 --output docs/pictures/five_disks.png
-for update in usl musl usf usavg; do run beam_impact "beam_$update" --set "method.stress_update=$update"; done
+for update in usl musl usf usavg; do run beam_impact "beam_$update" paper --set "method.stress_update=$update"; done
 draw beam_usavg --quantity stress_xx --panel 3x2 --output docs/pictures/beam.png
 draw beam_usavg --history total_energy --compare "$results"/beam_{usf,musl,usl} --output docs/pictures/beam_energy.png
+run incline incline contact
+draw incline --quantity stress_yy --frame -1 --output docs/pictures/incline.png
+run composite composite contact
+draw composite --quantity stress_xx --time "0.05 ms" "0.1 ms" --panel 2x1 --magnify 10 --output docs/pictures/composite.png

@@ -195,8 +195,9 @@ class Engine final : public Simulation {
     if (state_.most_crowded_nodes > 0)
       out.push_back(fmt::format("up to {} nodes saw more than two cracks at once", state_.most_crowded_nodes));
     if (state_.most_unsolved_nodes > 0) {
-      out.push_back(fmt::format("contact did not converge at up to {} nodes of a step; smaller cells where cracks or several bodies meet usually help",
-                                state_.most_unsolved_nodes));
+      out.push_back(fmt::format(
+          "contact did not converge at up to {} nodes of a step; smaller cells where cracks or several bodies meet usually help",
+          state_.most_unsolved_nodes));
     }
     if (time_.step && *time_.step > state_.traction_time_step) {
       out.push_back(
