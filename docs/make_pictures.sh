@@ -15,7 +15,5 @@ draw five_disks --fringes --frame -1 --output docs/pictures/five_disks.png
 for update in usl musl usf usavg; do run beam_impact "beam_$update" paper --set "method.stress_update=$update"; done
 draw beam_usavg --quantity stress_xx --panel 3x2 --output docs/pictures/beam.png
 draw beam_usavg --history total_energy --compare "$results"/beam_{usf,musl,usl} --output docs/pictures/beam_energy.png
-run incline incline contact
-draw incline --quantity stress_yy --frame -1 --output docs/pictures/incline.png
 run composite composite contact
 draw composite --quantity stress_xx --time "0.05 ms" "0.1 ms" --panel 2x1 --magnify 10 --output docs/pictures/composite.png
