@@ -38,13 +38,15 @@ SlidingLimit limit_of(const SpeedFrictionContact& law, const Sliding& s) {
   return {false, 0, std::clamp(S, 0., s.full)};
 }
 
-/// (S - a)(D - S) = (mu_s - mu_d) N m v_h with a = S_a + mu_d N and D = d_t + m v_h: the smaller root.
+/// (S - a)(D - S) = (mu_s - mu_d) N m v_h with a = S_a + mu_d N and D = d_t + m v_h: the smaller root, written so that nothing cancels
+/// where v_h is far above the speeds at hand.
 SlidingLimit limit_of(const RateWeakeningContact& law, const Sliding& s) {
   const double cohesion = law.shear_strength * s.area * s.dt;
   if (law.static_friction * s.normal + cohesion >= s.full) return stick;
   const double a = cohesion + law.friction * s.normal, D = s.full + s.mass * law.half_speed;
-  const double root = 0.25 * (D - a) * (D - a) - (law.static_friction - law.friction) * s.normal * s.mass * law.half_speed;
-  return {false, 0, 0.5 * (D + a) - std::sqrt(std::max(root, 0.))};
+  const double fall = (law.static_friction - law.friction) * s.normal * s.mass * law.half_speed;
+  const double root = std::sqrt(std::max((D - a) * (D - a) - 4 * fall, 0.));
+  return {false, 0, std::min(a + 2 * fall / (D - a + root), s.full)};
 }
 
 SlidingLimit limit_of(const SlipWeakeningContact& law, const Sliding& s) {
