@@ -67,7 +67,8 @@ template <int Dim>
 Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
   const double w_n = dot(w, pair.n);
   const Vec<Dim> D_t = (w - pair.n * w_n) * m;
-  const double gap = pair.previous == ContactState::open ? pair.gap : std::fmin(pair.gap, 0.);
+  const bool held = pair.previous != ContactState::open && pair.gap <= rules.hold;
+  const double gap = held ? std::fmin(pair.gap, 0.) : pair.gap;
   const double bound = -std::fmax(gap, 0.) / rules.dt;
   Response<Dim> out;
   const auto test = [&] {
@@ -81,7 +82,7 @@ Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& p
   };
   switch (rules.task) {
     case ContactTask::two:
-      if (pair.previous == ContactState::open) {
+      if (!held) {
         test();
       } else {
         out.push(pair.n, m, w_n, 0);

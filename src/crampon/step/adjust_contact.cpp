@@ -165,6 +165,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
   Nodes<Dim>& nodes = state.nodes;
   BlockLedger<Dim>& ledger = state.scratch[b].ledger;
   ContactRules rules = rules_of(model.contact, task, dt);
+  rules.hold = 0.25 * model.grid.smallest_cell();  // well above what gaps err by (docs/theory/contact.md, detection)
   const bool re_extrapolates = model.stress_update == StressUpdate::musl || model.stress_update == StressUpdate::usavg;
   std::vector<Vec<Dim>> before;
   for (ContactNode<Dim>& node : contacts.nodes) {

@@ -12,6 +12,11 @@ namespace crampon {
 
 namespace {
 
+/// Depth in cells before a rigid face from which on a node is inside the material that the face stops, and not held itself. Wider shape
+/// functions see the face from further away, but a second row of nodes held takes away the give of the first row of cells. Less than one by
+/// more than what positions err by: at one lie the nodes of bodies aligned with the grid.
+constexpr double deepest_held = 0.99;
+
 /// f(point, side) for the particles of both faces about a node.
 template <int Dim, class F>
 void for_points(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, F f) {
@@ -52,9 +57,12 @@ bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Di
   pair.n = normalized(n);
   if (pair.n == Vec<Dim>{}) return false;
   const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
+  double depth = 0;  // of the node before a rigid face, in cells
+  if (b.rigid) depth = model_.fields[b.field].edge.edge_distance(dot(b.x, pair.n) / (b.m * plane.h), plane);
+  if (depth >= deepest_held) return false;
   pair.volume_ratio = relative_volume(place);
   pair.gap = material_gap(place, a, b, pair, plane);
-  if (needs_area(*pair.law)) pair.area = area_between(a, b, pair.n);
+  if (needs_area(*pair.law)) pair.area = b.rigid ? area_on_rigid(a, b, depth, pair.n, plane) : area_between(a, b, pair.n);
   look_back(place, a, b, pair);
   return true;
 }
@@ -84,11 +92,12 @@ bool FaceToFace<Dim>::see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& 
   pair.n = normalized(n);
   if (pair.n == Vec<Dim>{}) return false;
   const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
+  if (view.distance >= deepest_held * plane.h) return false;
   const EdgeMap& edge = model_.fields[a.field].edge;
   const double d = edge.edge_distance(-dot(a.x, pair.n) / (a.m * plane.h), plane);
   pair.gap = d * plane.h + view.distance;
-  // The wall's face is as wide as the material's edge.
-  if (needs_area(*pair.law)) pair.area = edge.area_at(d, plane) * cell_volume() / plane.h * thickness(a, b);
+  if (needs_area(*pair.law)) pair.area = area_on_rigid(a, b, view.distance / plane.h, pair.n, plane);
+  if (needs_history(*pair.law)) pair.history = a.history / a.m;
   return true;
 }
 
@@ -124,6 +133,19 @@ double FaceToFace<Dim>::area_between(const Face<Dim>& a, const Face<Dim>& b, con
   return contact_area(a.volume, dot(a.x, n) / a.m, model_.fields[a.field].edge, b.volume, dot(b.x, n) / b.m, model_.fields[b.field].edge,
                       plane_in_cells(model_.grid.cell, n)) *
          thickness(a, b);
+}
+
+/// A rigid face is as wide as the material's edge; beside the material's end only the part of the node that it fills counts. Nodes too deep
+/// inside to be held hand their parts to the row before them.
+template <int Dim>
+double FaceToFace<Dim>::area_on_rigid(const Face<Dim>& a, const Face<Dim>& b, double depth, const Vec<Dim>& n,
+                                      const PlaneInCells& plane) const {
+  const EdgeMap& edge = model_.fields[a.field].edge;
+  const double d = edge.edge_distance(-dot(a.x, n) / (a.m * plane.h), plane);
+  const double seen = edge.volume_at(d, plane) * cell_volume();
+  const double filled = seen > 0 ? std::fmin(a.volume / seen, 1.) : 0.;
+  const double part = edge.area_at(d, plane) + (depth >= 0 ? edge.area_at(d - 1, plane) : 0.);
+  return part * filled * cell_volume() / plane.h * thickness(a, b);
 }
 
 template <int Dim>

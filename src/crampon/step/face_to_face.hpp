@@ -77,6 +77,7 @@ class FaceToFace {
   double cell_volume() const;
   double thickness(const Face<Dim>& a, const Face<Dim>& b) const;
   double area_between(const Face<Dim>& a, const Face<Dim>& b, const Vec<Dim>& n) const;
+  double area_on_rigid(const Face<Dim>& a, const Face<Dim>& b, double depth, const Vec<Dim>& n, const PlaneInCells& plane) const;
   double relative_volume(const MeetingPlace<Dim>& place) const;
   double gap_by_volume(double volume_ratio) const;
   double material_gap(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const ContactPair<Dim>& pair,

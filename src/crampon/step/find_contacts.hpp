@@ -6,12 +6,12 @@
 
 namespace crampon {
 
-/// Distance from a wall, m, beyond which a node's material cannot touch it: its edge is at most a cell and a half from the node.
+/// Distance from a wall, m, beyond which it holds no node, however it lies in the cells.
 template <int Dim>
 double wall_reach(const Grid<Dim>& grid) {
   double h = 0;
   for (int k = 0; k < Dim; ++k) h = std::fmax(h, grid.cell[k]);
-  return 1.5 * h;
+  return h;
 }
 
 /// After Task 1: the nodes with several fields, their groups, pairs, normals, gaps and areas, which hold for the whole step.
