@@ -77,8 +77,22 @@ CrackSurfaces::CrackSurfaces(const State<2>& state, const Model<2>& model)
   bins_.build({model.grid.origin, model.grid.cell, model.grid.cells, surface_reach, surface_reach}, paths_);
 }
 
-Vec<2> CrackSurfaces::above(const Crack<2>& crack, std::size_t v) const { return crack.plane[v] - vertex_normal(crack, v) * nudge_; }
-Vec<2> CrackSurfaces::below(const Crack<2>& crack, std::size_t v) const { return crack.plane[v] + vertex_normal(crack, v) * nudge_; }
+Vec<2> CrackSurfaces::into_body(const Vec<2>& end) const {
+  Vec<2> step{};
+  for (const SymmetryPlane& plane : model_.symmetries) {
+    const auto k = static_cast<std::size_t>(plane.axis);
+    if (std::fabs(end[k] - plane.at) < nudge_) step[k] += plane.side * nudge_;
+  }
+  return step;
+}
+
+Vec<2> CrackSurfaces::seen_from(const Crack<2>& crack, std::size_t v, const Vec<2>& surface, double side) const {
+  const Vec<2> out = vertex_normal(crack, v) * side;  // from the plane to the surface
+  const bool open = dot(surface - crack.plane[v], out) > nudge_;
+  return (open ? surface : crack.plane[v] + out * nudge_) + into_body(crack.plane[v]);
+}
+Vec<2> CrackSurfaces::above(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.upper[v], -1); }
+Vec<2> CrackSurfaces::below(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.lower[v], 1); }
 
 bool CrackSurfaces::within_reach(const Vec<2>& from, const Vec<2>& x) const {
   const Grid<2>& grid = model_.grid;

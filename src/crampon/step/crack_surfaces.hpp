@@ -2,6 +2,7 @@
 /// The nodes about a point of a crack's surface, and which fields there belong to that surface.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "crampon/crack/crossing.hpp"
@@ -30,22 +31,42 @@ class CrackSurfaces {
  public:
   CrackSurfaces(const State<2>& state, const Model<2>& model);
 
-  /// Where a side is looked at from: the vertex of the plane, moved a little to it. A surface point itself may lie a hair beyond the plane
-  /// while the crack is closed, and would then go with the wrong side for good.
+  /// Where a side is looked at from: the surface point; while the crack is closed, when that may lie a hair beyond the plane and would go
+  /// with the wrong side for good, the vertex of the plane, moved a little to the side. On a mirror, where the path ends but not the crack,
+  /// moved a little into the body too.
   Vec<2> above(const Crack<2>& crack, std::size_t vertex) const;
   Vec<2> below(const Crack<2>& crack, std::size_t vertex) const;
 
-  /// f(node, p): for the nodes around x with mass on the side of `from`: {p, m} there, of all materials (N13 sec. 2.9).
+  /// f(node, side, p, weight) for the nodes around x with mass on the side of `from`: {p, m} there, of all materials (N13 sec. 2.9). The
+  /// weights add up to 1 and serve motion and tractions alike, so that a traction's work on the nodes is its work on the opening. They are
+  /// those of the plane, S: where faces press on each other they share the normal velocity at every node, and both surfaces then move as
+  /// one; weights by mass let them drift by the strain over a third of a cell. Only nodes with less than half the mean mass weigh less, in
+  /// proportion: a traction would throw them about.
   template <class F>
   void for_nodes(const Vec<2>& from, const Vec<2>& x, F f) const {
     const bool near = within_reach(from, x);
-    for (const NodeShare& node : nodes_around(state_, model_, x)) {
-      if (node.block == no_block || node.S == 0) continue;
-      Signature side;
-      if (!signature(from, node.x, near, side)) continue;
-      Pack p = splat(0.);
-      for_layers(node, side, [&](std::size_t slot) { p += state_.nodes.momentum[slot]; });
-      if (p[2] > 0) f(node, side, p);
+    const auto around = nodes_around(state_, model_, x);
+    std::array<Signature, 9> sides;
+    std::array<Pack, 9> packs;
+    double mass = 0, shape = 0;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      const NodeShare& node = around[i];
+      packs[i] = splat(0.);
+      if (node.block == no_block || node.S == 0 || !signature(from, node.x, near, sides[i])) continue;
+      for_layers(node, sides[i], [&](std::size_t slot) { packs[i] += state_.nodes.momentum[slot]; });
+      if (!(packs[i][2] > 0)) continue;
+      mass += node.S * packs[i][2];
+      shape += node.S;
+    }
+    if (!(mass > 0)) return;
+    const double light = 0.5 * mass / shape;
+    const auto weight = [&](std::size_t i) { return around[i].S * std::fmin(1., packs[i][2] / light); };
+    double sum = 0;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      if (packs[i][2] > 0) sum += weight(i);
+    }
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      if (packs[i][2] > 0) f(around[i], sides[i], packs[i], weight(i) / sum);
     }
   }
   /// f(slot of the node in the nodal arrays) for the fields of one side of all cracks; not those of rigid bodies.
@@ -59,6 +80,9 @@ class CrackSurfaces {
   }
 
  private:
+  Vec<2> seen_from(const Crack<2>& crack, std::size_t vertex, const Vec<2>& surface, double side) const;
+  /// The small step from a mirror into the body; zero away from mirrors.
+  Vec<2> into_body(const Vec<2>& end) const;
   bool within_reach(const Vec<2>& from, const Vec<2>& x) const;
   /// Cracks between `from` and a node; false when there are too many.
   bool signature(const Vec<2>& from, const Vec<2>& node, bool near, Signature& side) const;

@@ -10,18 +10,20 @@ namespace crampon {
 
 namespace {
 
-/// Shares f, on the surface point x of the side seen from `from`, among the nodes about it in proportion to m S; returns sum m S.
-double share_force(State<2>& state, const CrackSurfaces& surfaces, const Vec<2>& from, const Vec<2>& x, const Vec<2>& f) {
-  double total = 0;
-  surfaces.for_nodes(from, x, [&](const NodeShare& node, const Signature&, Pack p) { total += p[2] * node.S; });
-  if (!(total > 0) || f == Vec<2>{}) return total;
-  surfaces.for_nodes(from, x, [&](const NodeShare& node, const Signature& side, Pack) {
+/// What a force on the surface point x of the side seen from `from` moves: with a share w of it for each node, 1/sum(w^2/m), kg; 0: nothing.
+double moved_mass(const CrackSurfaces& surfaces, const Vec<2>& from, const Vec<2>& x) {
+  double sum = 0;
+  surfaces.for_nodes(from, x, [&](const NodeShare&, const Signature&, Pack p, double w) { sum += w * w / p[2]; });
+  return sum > 0 ? 1 / sum : 0.;
+}
+
+/// Shares f among the nodes about x, and among the materials there by mass.
+void share_force(State<2>& state, const CrackSurfaces& surfaces, const Vec<2>& from, const Vec<2>& x, const Vec<2>& f) {
+  surfaces.for_nodes(from, x, [&](const NodeShare& node, const Signature& side, Pack p, double w) {
     surfaces.for_layers(node, side, [&](std::size_t slot) {
-      const double part = state.nodes.momentum[slot][2] * node.S / total;
-      state.scratch[node.block].tractions.push_back({slot, f * part});
+      state.scratch[node.block].tractions.push_back({slot, f * (w * state.nodes.momentum[slot][2] / p[2])});
     });
   });
-  return total;
 }
 
 }  // namespace
@@ -62,7 +64,7 @@ void spread_tractions<2>(State<2>& state, const Model<2>& model) {
       if (t.area[v] == 0 || t.history[v].failed != 0) continue;
       const Vec<2> above = surfaces.above(crack, v), below = surfaces.below(crack, v);
       // A side without mass bears nothing, and neither does the other then.
-      double m_a = share_force(state, surfaces, above, crack.upper[v], {}), m_b = share_force(state, surfaces, below, crack.lower[v], {});
+      const double m_a = moved_mass(surfaces, above, crack.upper[v]), m_b = moved_mass(surfaces, below, crack.lower[v]);
       if (!(m_a > 0 && m_b > 0)) continue;
       share_force(state, surfaces, above, crack.upper[v], t.force[v]);
       share_force(state, surfaces, below, crack.lower[v], -t.force[v]);

@@ -30,18 +30,14 @@ std::optional<Vec<2>> plane_velocity(const State<2>& state, const Model<2>& mode
   return sum * (1 / weight);
 }
 
-/// The same for one surface: at every node the fields of that side. Weights are those of the plane, S alone: where faces press on each other
-/// they share the normal velocity at every node, and both surfaces then move as one; weights by mass let them drift by the strain over a
-/// third of a cell.
+/// The same for one surface: of the fields of that side.
 std::optional<Vec<2>> surface_velocity(const CrackSurfaces& surfaces, const Vec<2>& from, const Vec<2>& x) {
-  Vec<2> sum{};
-  double weight = 0;
-  surfaces.for_nodes(from, x, [&](const NodeShare& node, const Signature&, Pack p) {
-    for (int k = 0; k < 2; ++k) sum[k] += node.S * p[k] / p[2];
-    weight += node.S;
+  std::optional<Vec<2>> v;
+  surfaces.for_nodes(from, x, [&](const NodeShare&, const Signature&, Pack p, double weight) {
+    if (!v) v.emplace();
+    for (int k = 0; k < 2; ++k) (*v)[k] += weight * p[k] / p[2];
   });
-  if (!(weight > 0)) return std::nullopt;
-  return sum * (1 / weight);
+  return v;
 }
 
 /// Vertices without a velocity take that of the nearest vertex along the crack that has one; none has: they stay.
