@@ -56,20 +56,35 @@ def vertex_normal(plane, k):
     return n[0] / length, n[1] / length
 
 
+def seen_from(model, crack, k, point, up):
+    """The surface point, or the plane's vertex just off the plane: while the point is not off it itself, or lies across another crack.
+    On a mirror a little into the body as well."""
+    nudge, n = 1e-8 * model.grid.h, vertex_normal(crack.plane, k)
+    into = [0.0, 0.0]
+    for mirror in model.symmetries:
+        if abs(crack.plane[k][mirror.axis] - mirror.at) < nudge:
+            into[mirror.axis] += mirror.side * nudge
+    beside = [crack.plane[k][c] - up * nudge * n[c] + into[c] for c in range(2)]
+    if -up * sum((point[c] - crack.plane[k][c]) * n[c] for c in range(2)) <= nudge or model.crossings(beside, point)[0]:
+        return beside
+    return [point[c] + into[c] for c in range(2)]
+
+
 def side_average(model, crack, k, point, up):
-    """v = sum S v / sum S over the fields that the plane's vertex, just off the plane on this side, looks at."""
-    n = vertex_normal(crack.plane, k)
-    vertex = [crack.plane[k][c] - up * 1e-8 * model.grid.h * n[c] for c in range(2)]
-    weight, v = 0.0, [0.0, 0.0]
+    """v = sum w v / sum w over the fields of this side, w = S min(1, m/(half the mean mass by S))."""
+    seen, found = seen_from(model, crack, k, point, up), []
     for node, S in point_2d(point, model.grid):
-        signature, _ = model.crossings(vertex, model.grid.position(node))
-        target, R, _ = model.fold(vertex, node)
+        signature, _ = model.crossings(seen, model.grid.position(node))
+        target, R, _ = model.fold(seen, node)
         key = (target, signature)
-        if key in model.m:
-            weight += S
-            for c in range(2):
-                v[c] += R[c] * S * model.p[key][c] / model.m[key]
-    return None if weight == 0 else (v[0] / weight, v[1] / weight)
+        if key in model.m and S > 0:
+            found.append((S, key, R))
+    if not found:
+        return None
+    light = 0.5 * sum(S * model.m[key] for S, key, _ in found) / sum(S for S, _, _ in found)
+    weights = [S * min(1.0, model.m[key] / light) for S, key, _ in found]
+    return tuple(sum(w * R[c] * model.p[key][c] / model.m[key] for w, (_, key, R) in zip(weights, found)) / sum(weights)
+                 for c in range(2))
 
 
 def keep_sides(crack):

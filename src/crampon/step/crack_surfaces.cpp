@@ -88,8 +88,11 @@ Vec<2> CrackSurfaces::into_body(const Vec<2>& end) const {
 
 Vec<2> CrackSurfaces::seen_from(const Crack<2>& crack, std::size_t v, const Vec<2>& surface, double side) const {
   const Vec<2> out = vertex_normal(crack, v) * side;  // from the plane to the surface
-  const bool open = dot(surface - crack.plane[v], out) > nudge_;
-  return (open ? surface : crack.plane[v] + out * nudge_) + into_body(crack.plane[v]);
+  const Vec<2> into = into_body(crack.plane[v]), beside = crack.plane[v] + out * nudge_ + into;
+  if (!(dot(surface - crack.plane[v], out) > nudge_)) return beside;
+  Signature between;
+  const bool sees = signature(beside, surface, within_reach(beside, surface), between);
+  return sees && between == Signature{} ? surface + into : beside;
 }
 Vec<2> CrackSurfaces::above(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.upper[v], -1); }
 Vec<2> CrackSurfaces::below(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.lower[v], 1); }

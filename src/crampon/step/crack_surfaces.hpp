@@ -31,8 +31,8 @@ class CrackSurfaces {
  public:
   CrackSurfaces(const State<2>& state, const Model<2>& model);
 
-  /// Where a side is looked at from: the surface point; while the crack is closed, when that may lie a hair beyond the plane and would go
-  /// with the wrong side for good, the vertex of the plane, moved a little to the side. On a mirror, where the path ends but not the crack,
+  /// Where a side is looked at from: the surface point; where that may lie a hair beyond a crack and would go with the wrong side for good,
+  /// that is while its own crack is closed or across another one, the vertex of the plane, moved a little to the side. On a mirror, where the path ends but not the crack,
   /// moved a little into the body too.
   Vec<2> above(const Crack<2>& crack, std::size_t vertex) const;
   Vec<2> below(const Crack<2>& crack, std::size_t vertex) const;
