@@ -17,3 +17,9 @@ draw beam_usavg --quantity stress_xx --panel 3x2 --output docs/pictures/beam.png
 draw beam_usavg --history total_energy --compare "$results"/beam_{usf,musl,usl} --output docs/pictures/beam_energy.png
 run composite composite contact
 draw composite --quantity stress_xx --time "0.05 ms" "0.1 ms" --panel 2x1 --magnify 10 --output docs/pictures/composite.png
+run cohesive_dcb cohesive_dcb contact
+draw cohesive_dcb --quantity stress_yy --magnify 3 --frame -1 --output docs/pictures/cohesive_dcb.png
+run five_disks_friction five_disks_friction contact
+draw five_disks_friction --fringes --frame -1 --output docs/pictures/five_disks_friction.png
+run indenter indenter contact
+draw indenter --quantity stress_xx --frame -1 --output docs/pictures/indenter.png

@@ -58,33 +58,32 @@ def vertex_normal(plane, k):
 
 def seen_from(model, crack, k, point, up):
     """The surface point, or the plane's vertex just off the plane: while the point is not off it itself, or lies across another crack.
-    On a mirror a little into the body as well."""
-    nudge, n = 1e-8 * model.grid.h, vertex_normal(crack.plane, k)
-    into = [0.0, 0.0]
-    for mirror in model.symmetries:
-        if abs(crack.plane[k][mirror.axis] - mirror.at) < nudge:
-            into[mirror.axis] += mirror.side * nudge
-    beside = [crack.plane[k][c] - up * nudge * n[c] + into[c] for c in range(2)]
-    if -up * sum((point[c] - crack.plane[k][c]) * n[c] for c in range(2)) <= nudge or model.crossings(beside, point)[0]:
+    On a mirror a little inside the body."""
+    nudge, vertex, n = 1e-8 * model.grid.h, crack.plane[k], vertex_normal(crack.plane, k)
+
+    def off_mirrors(x):
+        for mirror in model.symmetries:
+            if abs(vertex[mirror.axis] - mirror.at) < nudge:
+                x[mirror.axis] = mirror.at + mirror.side * nudge
+        return x
+    beside, itself = off_mirrors([vertex[c] - up * nudge * n[c] for c in range(2)]), off_mirrors(list(point))
+    if -up * sum((point[c] - vertex[c]) * n[c] for c in range(2)) <= nudge or model.crossings(beside, itself)[0]:
         return beside
-    return [point[c] + into[c] for c in range(2)]
+    return itself
 
 
 def side_average(model, crack, k, point, up):
-    """v = sum w v / sum w over the fields of this side, w = S min(1, m/(half the mean mass by S))."""
+    """v = sum w v / sum w over the fields of this side, w = S min(1, m/(half the mean mass by S)). Nodes beyond a mirror have no mass."""
     seen, found = seen_from(model, crack, k, point, up), []
     for node, S in point_2d(point, model.grid):
-        signature, _ = model.crossings(seen, model.grid.position(node))
-        target, R, _ = model.fold(seen, node)
-        key = (target, signature)
+        key = (node, model.crossings(seen, model.grid.position(node))[0])
         if key in model.m and S > 0:
-            found.append((S, key, R))
+            found.append((S, key))
     if not found:
         return None
-    light = 0.5 * sum(S * model.m[key] for S, key, _ in found) / sum(S for S, _, _ in found)
-    weights = [S * min(1.0, model.m[key] / light) for S, key, _ in found]
-    return tuple(sum(w * R[c] * model.p[key][c] / model.m[key] for w, (_, key, R) in zip(weights, found)) / sum(weights)
-                 for c in range(2))
+    light = 0.5 * sum(S * model.m[key] for S, key in found) / sum(S for S, _ in found)
+    weights = [S * min(1.0, model.m[key] / light) for S, key in found]
+    return tuple(sum(w * model.p[key][c] / model.m[key] for w, (_, key) in zip(weights, found)) / sum(weights) for c in range(2))
 
 
 def keep_sides(crack):

@@ -274,6 +274,34 @@ TYPED_TEST(ContactSolve, ConsistentSchemeOfOnePair) {
   EXPECT_GT(opening_task_6, 300);
 }
 
+/// A closed contact keeps its state while its gap reads no more than rules.hold; beyond it, it is one that was open.
+TYPED_TEST(ContactSolve, AHeldContactLetsGoBeyondItsBound) {
+  constexpr int Dim = TypeParam::value;
+  Random random(7);
+  for (int trial = 0; trial < 2000; ++trial) {
+    Node<Dim> node = random_pair<Dim>(random, CoulombContact{0.4});
+    ContactPair<Dim>& pair = node.pairs[0];
+    pair.previous = random.pick(2) == 0 ? ContactState::slip : ContactState::stick;
+    ContactRules rules;
+    rules.dt = dt;
+    rules.task = random.pick(2) == 0 ? ContactTask::two : ContactTask::four;
+    rules.hold = random.draw(0.1, 0.4) * h;
+    // The faces close a quarter of what parts them: apart, unless they are held.
+    const Vec<Dim> w = node.before(pair);
+    const bool held = random.pick(2) == 0;
+    pair.gap = rules.hold * (held ? random.draw(0.1, 1) : random.draw(1.01, 3));
+    auto& b = node.on(pair.b);
+    const double closing = -0.25 * pair.gap / dt;
+    b.p += pair.n * (b.m * (closing - dot(w, pair.n)));
+    ASSERT_TRUE(node.solve(rules));
+    if (held) {
+      ASSERT_NEAR(dot(pair.J, pair.n), -closing * node.reduced_mass(pair), round_off * node.momentum());
+    } else {
+      ASSERT_EQ(pair.J, Vec<Dim>{});
+    }
+  }
+}
+
 TYPED_TEST(ContactSolve, FixedComponentsStayAsTheyAre) {
   constexpr int Dim = TypeParam::value;
   Random random(6);

@@ -35,7 +35,6 @@ struct OnFloor {
   double room = 0.024;                                             // m, to slide
   std::string body = "";                                           ///< what the body is made of, when it is not a block
   int particles_per_cell = 2;
-  double floor_E = 0;  ///< as the body, when 0
   std::string more = "";
 };
 
@@ -80,8 +79,7 @@ density = 1000
     if (s.floor == "rigid") {
       text += "[[rigid]]\nname = \"floor\"\n" + shape;
     } else {
-      text += fmt::format("[[material]]\nname = \"base\"\nlaw = \"elastic_large_rotation\"\nE = {}\nnu = {}\ndensity = 1000\n",
-                          s.floor_E > 0 ? s.floor_E : s.E, s.nu);
+      text += fmt::format("[[material]]\nname = \"base\"\nlaw = \"elastic_large_rotation\"\nE = {}\nnu = {}\ndensity = 1000\n", s.E, s.nu);
       text += "[[body]]\nname = \"floor\"\nmaterial = \"base\"\n" + shape;
       text += fmt::format(
           "[[boundary]]\nname = \"hold\"\nregion = {{ kind = \"rectangle\", low = [{}, {}], high = [{}, {}] }}\nvx = 0\nvy = 0\n", low_x,
@@ -96,10 +94,11 @@ std::string coulomb(double friction) { return fmt::format("{{ law = \"coulomb\",
 
 /// The body in time.
 struct Motion {
-  std::vector<double> t, v, fall;  ///< s; m/s, along the floor and normal to it
-  std::vector<double> x;           ///< m, mean displacement along the floor, where asked for
-  std::vector<double> spin;        ///< kg m2/s, angular momentum about the centre of mass, where asked for
-  double mass = 0;                 ///< kg
+  std::vector<double> t, v, fall;              ///< s; m/s, along the floor and normal to it
+  std::vector<double> x;                       ///< m, mean displacement along the floor, where asked for
+  std::vector<double> reaction_x, reaction_y;  ///< N, of a rigid floor
+  std::vector<double> spin;                    ///< kg m2/s, angular momentum about the centre of mass, where asked for
+  double mass = 0;                             ///< kg
   std::unique_ptr<Simulation> simulation;
 
   double at_end(const std::string& column) const { return value(*simulation, column); }
@@ -123,6 +122,10 @@ Motion follow(const OnFloor& setup, Places places = Places::no) {
   }
   const auto note = [&](Simulation& s) {
     motion.t.push_back(s.time());
+    if (setup.floor != "body") {
+      motion.reaction_x.push_back(value(s, "reaction_x.floor"));
+      motion.reaction_y.push_back(value(s, "reaction_y.floor"));
+    }
     if (places == Places::no && setup.floor != "body") {
       motion.v.push_back(value(s, "momentum_x") / motion.mass);
       motion.fall.push_back(value(s, "momentum_y") / motion.mass);
@@ -206,7 +209,7 @@ TEST_P(FrictionOfPointMass, IsThatOfTheBlock) {
     EXPECT_NEAR(m.at_end("friction_loss"), lost, 0.01 * lost);
   }
 }
-const char* const with_speed = "{ law = \"speed_friction\", friction = 0.2, per_speed = 0.5 }";
+const char* const with_speed = "{ law = \"speed_friction\", friction = 0.05, per_speed = 0.4 }";
 const char* const less_with_speed = "{ law = \"speed_friction\", friction = 0.4, per_speed = -0.5 }";
 const char* const with_rate = "{ law = \"rate_weakening\", friction = 0.1, static_friction = 0.5, half_speed = 0.3 }";
 const char* const with_slip = "{ law = \"slip_weakening\", friction = 0.1, static_friction = 0.4, distance = 0.005 }";
@@ -216,7 +219,7 @@ double by_rate(double v, double) { return 0.1 + 0.4 / (1 + v / 0.3); }
 double by_slip(double, double s) { return 0.1 + 0.3 * std::exp(-s / 0.005); }
 double by_slip_linear(double, double s) { return 0.1 + 0.3 * std::fmax(0, 1 - s / 0.01); }
 INSTANTIATE_TEST_SUITE_P(Laws, FrictionOfPointMass,
-                         testing::Values(Law{"speed", with_speed, [](double v, double) { return 0.2 + 0.5 * v; }, "linear"},
+                         testing::Values(Law{"speed", with_speed, [](double v, double) { return 0.05 + 0.4 * v; }, "linear"},
                                          Law{"less_with_speed", less_with_speed, [](double v, double) { return 0.4 - 0.5 * v; }, "gimp"},
                                          Law{"rate", with_rate, by_rate, "linear"}, Law{"rate", with_rate, by_rate, "bspline", "rigid"},
                                          Law{"slip", with_slip, by_slip, "gimp"}, Law{"slip", with_slip, by_slip, "bspline"},
@@ -225,10 +228,8 @@ INSTANTIATE_TEST_SUITE_P(Laws, FrictionOfPointMass,
 
 /// Validation row 37: mu = mu_0 + k v leaves v = (v_0 + mu_0/k) e^(-k g t) - mu_0/k; 1 % from full weight on.
 TEST(VelocityDependentFriction, SlowsExponentially) {
-  constexpr double mu_0 = 0.2, k = 0.5;
-  OnFloor setup = sliding_block(with_speed, 0.5);
-  setup.shape_functions = "gimp";
-  const Motion m = follow(setup);
+  constexpr double mu_0 = 0.05, k = 0.4;
+  const Motion m = follow(sliding_block(with_speed, 0.5));
   const std::size_t first = m.first(T);
   double worst = 0;
   for (std::size_t i = first; i < m.t.size(); ++i) {
@@ -244,9 +245,9 @@ class Shapes : public testing::TestWithParam<const char*> {};
 /// A film with eta/film = 200 Pa s/m drags 1000 kg/m3 of 8 mm height at the rate 25/s. 1 %: what the area under the block errs by.
 TEST_P(Shapes, ViscousFilmSlowsAtItsRate) {
   OnFloor s = sliding_block("{ law = \"viscous\", viscosity = 0.02, film = 1e-4 }", 0.5);
-  s.gravity_y = fmt::format("{}*{}", -10 * g, eased(T));  // keeps it flat on the floor
+  s.gravity_y = fmt::format("{}*{}", -10 * g, eased(T));  // so that the drag does not tip it
   s.shape_functions = GetParam();
-  s.end = 0.04;
+  s.end = 0.03;
   const Motion m = follow(s);
   std::vector<double> log_v;
   for (const double v : m.v) log_v.push_back(std::log(v));
@@ -266,27 +267,25 @@ TEST_P(Shapes, StrengthCapsFriction) {
   EXPECT_NEAR(a, 2.5, 0.025);
 }
 
-/// Validation row 38: friction takes all of 1/2 m v^2 of a block that comes to rest, 1 %; contact takes the rest, with linear shape functions
-/// 1.4 %.
+/// Validation row 38: friction takes all of 1/2 m v^2 of a block that comes to rest, 1 %; what is left shakes.
 TEST_P(Shapes, BlockThatComesToRestHeatsByItsEnergy) {
-  OnFloor s = sliding_block(coulomb(0.3), 0.1);
+  OnFloor s = sliding_block(coulomb(0.2), 0.1);
   s.shape_functions = GetParam();
-  s.end = 0.06;
+  s.end = 0.07;
   s.room = 0.008;
   const Motion m = follow(s);
   const double energy = 0.5 * m.mass * 0.1 * 0.1;
   RecordProperty("friction", fmt::format("{:.5f}", m.at_end("friction_loss") / energy));
   RecordProperty("contact", fmt::format("{:.5f}", m.at_end("contact_loss") / energy));
   RecordProperty("v_end", fmt::format("{:.2e}", m.v.back()));
-  EXPECT_NEAR(m.at_end("friction_loss"), energy, (s.shape_functions == "linear" ? 0.015 : 0.01) * energy);
-  EXPECT_NEAR(m.at_end("friction_loss") + m.at_end("contact_loss"), energy, 0.01 * energy);
+  EXPECT_NEAR(m.at_end("friction_loss"), energy, 0.01 * energy);
   EXPECT_LT(std::fabs(m.v.back()), 0.001);
 }
 INSTANTIATE_TEST_SUITE_P(Friction, Shapes, testing::Values("linear", "gimp", "bspline"));
 
 /// A disk of particles in rings about its centre, so that its rim is round: a file for [[body]] particles.
-std::string rings(double radius, double spacing) {
-  const std::string path = testing::TempDir() + fmt::format("crampon_rings_{}_{}.csv", radius, spacing);
+std::string rings(double radius, double spacing, const std::string& name) {
+  const std::string path = testing::TempDir() + "crampon_rings_" + name + ".csv";
   std::ofstream out(path);
   out << "x,y,volume\n";
   const int count = static_cast<int>(std::lround(radius / spacing));
@@ -310,8 +309,9 @@ struct Disk {
 void PrintTo(const Disk& c, std::ostream* out) { *out << c.name << ", " << c.shape_functions; }
 class DiskOnIncline : public testing::TestWithParam<Disk> {};
 
-/// Validation row 36, 60 degrees: friction below tan/3 = .577 lets the disk slip, a = g(sin - mu cos); more makes it roll, a = 2/3 g sin.
-/// Gravity comes slowly and damped, so that the disk does not bounce.
+/// Validation row 36, 60 degrees: friction below tan/3 = .577 lets the disk slip, a = g(sin - mu cos); more makes it roll, a = 2/3 g sin;
+/// 2 %. Gravity comes slowly and damped, so that the disk does not bounce. The spin within 3 %: the pressure under a soft disk, a few cells
+/// wide, acts a little before its centre. The linear case that rolls is off by 7 % where contacts hold nodes whatever their gap.
 TEST_P(DiskOnIncline, SlipsOrRolls) {
   const Disk& c = GetParam();
   constexpr double radius = 0.01, release = 0.1, angle = pi / 3;
@@ -328,7 +328,7 @@ TEST_P(DiskOnIncline, SlipsOrRolls) {
   s.end = 0.16;
   s.room = 0.036;
   s.particles_per_cell = 3;
-  s.body = fmt::format("particles = \"{}\"", rings(radius, s.cell / 3));
+  s.body = fmt::format("particles = \"{}\"", rings(radius, s.cell / 3, std::string(c.name) + "_" + c.shape_functions));
   const Motion m = follow(s, Places::yes);
   const double expected = rolls ? 2. / 3 * g * std::sin(angle) : g * (std::sin(angle) - c.friction * std::cos(angle));
   const double spin = rolls ? -expected / radius : -2 * c.friction * g * std::cos(angle) / radius;
@@ -336,58 +336,70 @@ TEST_P(DiskOnIncline, SlipsOrRolls) {
   RecordProperty("acceleration", fmt::format("{:.4f} of {:.4f}", a, expected));
   RecordProperty("spin", fmt::format("{:.2f} of {:.2f}", turning, spin));
   EXPECT_NEAR(a, expected, 0.02 * expected);
-  EXPECT_NEAR(turning, spin, 0.03 * std::fabs(spin));  // the disk is flat by 1 % of its radius where it touches, and friction shakes it
+  EXPECT_NEAR(turning, spin, 0.03 * std::fabs(spin));
 }
 INSTANTIATE_TEST_SUITE_P(Rims, DiskOnIncline,
-                         testing::Values(Disk{"slips", 0.495, "gimp"}, Disk{"rolls", 1., "gimp"}, Disk{"slips", 0.495, "linear"}));
+                         testing::Values(Disk{"slips", 0.495, "gimp"}, Disk{"rolls", 1., "gimp"}, Disk{"slips", 0.495, "linear"},
+                                         Disk{"rolls", 1., "linear"}));
+
+/// A block of 16 x 8 mm with the stresses N across the floor and S along it, Pa, functions of time, everywhere: by tractions on its top and
+/// ends. Small particles: a traction acts at the particles of the face, and its distance from the face bends the foot.
+OnFloor stressed_block(const std::string& law, const std::string& N, const std::string& S) {
+  OnFloor s;
+  s.width = 0.016;
+  s.height = 0.008;
+  s.nu = 0;
+  s.particles_per_cell = 8;
+  s.gravity_y = "0";
+  s.law = law;
+  s.room = 0.008;
+  const auto traction = [](const char* face, const std::string& x, const std::string& y) {
+    return fmt::format(
+        "[[load]]\nkind = \"traction\"\nbody = \"body\"\nface = \"{}\"\nvalue = [{{ expression = \"{}\" }}, {{ expression = \"{}\" }}]\n",
+        face, x, y);
+  };
+  s.more = traction("y+", S, N) + traction("x+", "0", S) + traction("x-", "0", "-(" + S + ")");
+  return s;
+}
 
 struct Pull {
   const char* name;
-  double normal, shear;  ///< of the pull, parts of the strengths
+  double normal, shear;  ///< in proportion
   const char* shape_functions;
-  double tolerance;
+  double tolerance = 0.02;
 };
 void PrintTo(const Pull& c, std::ostream* out) { *out << c.name << ", " << c.shape_functions; }
 class Adhesion : public testing::TestWithParam<Pull> {};
 
-/// Validation row 39: a block under the same stress everywhere, by tractions on its sides that rise in proportion, comes off where
-/// (S/S_a)^2 + (N/N_a)^2 = 1. The row asks for 2 %: normal pulls keep to it; with shear the nodes at the ends, which bear more, break first. It rises by 1 in 40 ms, its waves take 1 ms.
+/// Validation row 39: a block under stress that rises slowly comes off where (S/S_a)^2 + (N/N_a)^2 = 1. The floor bears that much, and then
+/// nothing. 2 %: under shear the node at an end is the first to go and takes the others with it (1 % here, 4 % with 2 x 2 particles per
+/// cell, whose end tractions act deeper inside). With B-splines, whose foot is softer at its ends, 8 %.
 TEST_P(Adhesion, BreaksOnItsEllipse) {
   const Pull& c = GetParam();
   constexpr double normal_strength = 300, shear_strength = 200, rise = 0.04;
-  OnFloor s;
-  s.width = 0.016;
-  s.height = 0.008;
-  s.cell = 0.002;
-  s.nu = 0;
-  s.gravity_y = "0";
+  const double size = std::hypot(c.normal, c.shear), normal = c.normal / size, shear = c.shear / size;
+  OnFloor s =
+      stressed_block(fmt::format("{{ law = \"adhesive\", normal_strength = {}, shear_strength = {} }}", normal_strength, shear_strength),
+                     fmt::format("{}*t", normal * normal_strength / rise), fmt::format("{}*t", shear * shear_strength / rise));
   s.shape_functions = c.shape_functions;
-  s.law =
-      fmt::format("{{ law = \"adhesive\", normal_strength = {}, shear_strength = {}, friction = 0.3 }}", normal_strength, shear_strength);
   s.end = 1.2 * rise;
   s.damping = "500";
-  s.room = 0.008;
-  const double N = c.normal * normal_strength, S = c.shear * shear_strength, most = std::hypot(c.normal, c.shear);
-  const auto traction = [&](const char* face, double x, double y) {
-    return fmt::format(
-        "[[load]]\nkind = \"traction\"\nbody = \"body\"\nface = \"{}\"\nvalue = [{{ expression = \"{}*t\" }}, {{ expression = \"{}*t\" "
-        "}}]\n",
-        face, x / rise, y / rise);
-  };
-  s.more = traction("y+", S / most, N / most) + traction("x+", 0, S / most) + traction("x-", 0, -S / most);
-  const Motion m = follow(s, Places::yes);
-  // Elastic displacements, some um, grow at 0.1 mm/s; once loose it takes 0.2 ms to 5 mm/s.
-  double broken = 0;
+  const Motion m = follow(s);
+  double most = 0, broke = 0;
   for (std::size_t i = 0; i < m.t.size(); ++i) {
-    if (broken == 0 && std::hypot(m.v[i], m.fall[i]) > 0.005) broken = m.t[i] / rise;
+    const double load = std::hypot(m.reaction_x[i] / (s.width * shear_strength), m.reaction_y[i] / (s.width * normal_strength));
+    if (load > most) most = load, broke = m.t[i];
   }
-  RecordProperty("broke_at", fmt::format("{:.4f}", broken));
-  EXPECT_NEAR(broken, 1, c.tolerance);
+  RecordProperty("bore", fmt::format("{:.4f}", most));
+  RecordProperty("load_when_it_broke", fmt::format("{:.4f}", broke / rise));
+  RecordProperty("reaction_at_end", fmt::format("{:.2e} {:.2e}", m.reaction_x.back() / s.width, m.reaction_y.back() / s.width));
+  EXPECT_NEAR(most, 1, c.tolerance);
+  EXPECT_NEAR(broke / rise, 1, c.tolerance);
+  EXPECT_GT(std::hypot(m.v.back(), m.fall.back()), 0.01);
 }
 INSTANTIATE_TEST_SUITE_P(Pulls, Adhesion,
-                         testing::Values(Pull{"normal", 1, 0, "linear", 0.02}, Pull{"tangential", 0, 1, "linear", 0.03},
-                                         Pull{"mixed", 1, 1, "linear", 0.04}, Pull{"normal", 1, 0, "gimp", 0.02},
-                                         Pull{"tangential", 0, 1, "gimp", 0.03}, Pull{"mixed", 1, 1, "gimp", 0.04},
+                         testing::Values(Pull{"normal", 1, 0, "linear"}, Pull{"tangential", 0, 1, "linear"}, Pull{"mixed", 1, 1, "linear"},
+                                         Pull{"tangential", 0, 1, "gimp"}, Pull{"mixed", 1, 2, "gimp"}, Pull{"normal", 1, 0, "bspline"},
                                          Pull{"mixed", 1, 1, "bspline", 0.09}));
 
 struct Onset {
@@ -397,115 +409,116 @@ struct Onset {
 void PrintTo(const Onset& c, std::ostream* out) { *out << c.at_rest << " at rest, " << c.sliding << " sliding, " << c.shape_functions; }
 class StaticFriction : public testing::TestWithParam<Onset> {};
 
-/// A push that grows linearly sets the block sliding, and then it meets mu_d. As a whole it would start at mu_s; it shears, its ends slip first,
-/// and there friction is down to mu_d already.
+/// Under 200 Pa a shear that grows slowly sets the block sliding at mu_s, and then meets mu_d, 1 %. The time of the onset follows from the
+/// speed at the end. Within 3 %: the node that slips first, at an end, sheds its load to the next, so that the block goes early, the more
+/// so the further mu_d is below mu_s.
 TEST_P(StaticFriction, HoldsUntilItsOwnCoefficient) {
   const Onset& c = GetParam();
-  constexpr double rise = 0.06;
-  const double top = 1.3 * c.at_rest * g;
-  OnFloor s = sliding_block(fmt::format("{{ law = \"coulomb\", friction = {}, static_friction = {} }}", c.sliding, c.at_rest), 0);
+  constexpr double start = 0.01, rise = 0.04, pressure = 200;
+  const double rate = 1.2 * c.at_rest * pressure / rise;  // of the shear, Pa/s
+  OnFloor s = stressed_block(fmt::format("{{ law = \"coulomb\", friction = {}, static_friction = {} }}", c.sliding, c.at_rest),
+                             fmt::format("{}*{}", -pressure, eased(start)), fmt::format("(t < {0} ? 0 : {1}*(t - {0}))", start, rate));
   s.shape_functions = c.shape_functions;
-  s.gravity_x = fmt::format("(t < {0} ? 0 : {1}*(t - {0})/{2})", T, top, rise);
-  s.damping = fmt::format("{{ times = [0, {}, {}], values = [2000, 2000, 0] }}", T, 1.5 * T);
-  s.end = T + rise;
-  s.room = 0.012;
+  s.damping = fmt::format("{{ times = [0, {}, {}], values = [2000, 2000, 0] }}", start, 1.2 * start);
+  s.end = start + rise;
   const Motion m = follow(s);
-  const std::size_t onset =
-      static_cast<std::size_t>(std::find_if(m.v.begin(), m.v.end(), [](double v) { return v > 0.0005; }) - m.v.begin());
-  ASSERT_LT(onset, m.t.size());
-  const double found = top * (m.t[onset] - T) / rise / g;
-  std::vector<double> resisted;  // speed that friction has taken
-  for (std::size_t i = 0; i < m.t.size(); ++i) resisted.push_back(0.5 * top / rise * std::pow(std::fmax(m.t[i] - T, 0), 2) - m.v[i]);
-  const double sliding = slope(m, resisted, m.t[onset] + 0.003) / g;
+  double most = 0;  // of what the floor bears
+  for (std::size_t i = m.first(1.2 * start); i < m.t.size(); ++i) most = std::fmax(most, -m.reaction_x[i] / (pressure * s.width));
+  // From its onset at t_0 the block has v = (rate/2 (t^2 - t_0^2) - mu_d p (t - t_0))/(rho H), t from the start of the push.
+  const double a = 0.5 * rate, b = c.sliding * pressure, t = m.t.back() - start, per_area = m.mass / s.width;
+  const double t_0 = (b + std::sqrt(b * b - 4 * a * (per_area * m.v.back() - a * t * t + b * t))) / (2 * a);
+  const double found = rate * t_0 / pressure;
+  double N = 0, S = 0;
+  for (std::size_t i = m.first(start + t_0 + 0.003); i < m.t.size(); ++i) N += m.reaction_y[i], S -= m.reaction_x[i];
   RecordProperty("onset", fmt::format("{:.4f}", found));
-  RecordProperty("sliding", fmt::format("{:.4f}", sliding));
-  EXPECT_GT(found, c.sliding + 0.2 * (c.at_rest - c.sliding));
-  EXPECT_LT(found, 1.02 * c.at_rest);
-  EXPECT_NEAR(sliding, c.sliding, 0.02 * c.sliding);
+  RecordProperty("most", fmt::format("{:.4f}", most));
+  RecordProperty("sliding", fmt::format("{:.4f}", S / N));
+  RecordProperty("v_end", fmt::format("{:.4f}", m.v.back()));
+  EXPECT_NEAR(found, c.at_rest, 0.03 * c.at_rest);
+  EXPECT_NEAR(S / N, c.sliding, 0.01 * c.sliding);
 }
 INSTANTIATE_TEST_SUITE_P(Coefficients, StaticFriction,
                          testing::Values(Onset{0.4, 0.2, "bspline"}, Onset{0.3, 0.25, "gimp"}, Onset{0.4, 0.2, "linear"}));
 
-/// A block of 24 x 12 mm, E = 1 MPa, on an incline of 30 degrees, stuck: the mean displacement along the floor of a static finite element
-/// solution (bilinear elements of 0.5 mm, plane strain, all nodes at the floor fixed; 1 mm: 7.66e-7 m), and its frequency by Rayleigh's quotient.
+/// A block of 24 x 12 mm, E = 1 MPa, on an incline of 30 degrees, stuck: its mean displacement along the floor and, by Rayleigh's quotient,
+/// its frequency, from a static solution with bilinear finite elements of 0.5 mm (plane strain, all nodes at the floor fixed; with 1 and
+/// 2 mm 0.766e-6 m and 0.755e-6 m).
 constexpr double elastic_way = 7.70e-7, omega = 2706;  // m, 1/s
 
-OnFloor steep_block(double friction, double ramp) {
+OnFloor steep_block(const std::string& law, const std::string& rise) {
   OnFloor s;
   s.width = 0.024;
   s.height = 0.012;
   s.room = 0.008;
-  s.law = coulomb(friction);
+  s.law = law;
   const double angle = radians(30);
-  const std::string rise = ramp > 0 ? eased(ramp) : "1";
   s.gravity_x = fmt::format("{}*{}", g * std::sin(angle), rise);
   s.gravity_y = fmt::format("{}*{}", -g * std::cos(angle), rise);
   return s;
 }
 
-class Sticking : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
+struct Stuck {
+  const char* shape_functions;
+  double tolerance;  ///< of the elastic displacement
+};
+void PrintTo(const Stuck& c, std::ostream* out) { *out << c.shape_functions; }
+class Sticking : public testing::TestWithParam<Stuck> {};
 
-/// Gravity that comes slowly leaves a block with mu = .7 > tan(30 degrees) where it is, but for its elastic displacement.
+/// Gravity that comes slowly leaves a block with mu = .7 > tan(30 degrees) where it is, but for its elastic displacement: 12 % with cells of
+/// a sixth of its height, and 30 % with B-splines, whose foot gives more. Drift after settling below 1 % of it in a period.
 TEST_P(Sticking, ElasticAndWithoutCreep) {
-  constexpr double ramp = 0.025;
-  OnFloor s = steep_block(0.7, ramp);
-  s.shape_functions = std::get<0>(GetParam());
-  s.floor = std::get<1>(GetParam());
+  constexpr double ramp = 0.025, settled = ramp + 0.001;
+  OnFloor s = steep_block(coulomb(0.7), eased(ramp));
+  s.shape_functions = GetParam().shape_functions;
   const Motion m = follow(s, Places::yes);
-  const double settled = ramp + 0.001;
   double mean = 0, n = 0;
   for (std::size_t i = m.first(settled); i < m.t.size(); ++i) mean += m.x[i], n += 1;
   mean /= n;
   const double drift = slope(m, m.x, settled) * 2 * pi / omega / mean;
-  RecordProperty("way", fmt::format("{:.4f} of static", mean / elastic_way));
+  RecordProperty("way_of_static", fmt::format("{:.4f}", mean / elastic_way));
   RecordProperty("drift_percent", fmt::format("{:.4f}", 100 * drift));
-  // Six cells high. B-splines let the floor give: held are the nodes on it and below, of which the foot has seven eighths.
-  EXPECT_NEAR(mean, elastic_way, (s.shape_functions == "bspline" ? 0.3 : 0.12) * elastic_way);
+  EXPECT_NEAR(mean, elastic_way, GetParam().tolerance * elastic_way);
   EXPECT_LT(std::fabs(drift), 0.01);
 }
 
-/// Sudden gravity overshoots to twice the static displacement. The block bounces and rocks: at each rebound some nodes bear nothing for a
-/// moment and their foot moves, whatever the friction (mu = 50: 2.3 times). mu = 1.2 does not hold it to twice the displacement, but to six
-/// times (B-splines: nine), which is 5 um of a cell of 2 mm.
-TEST_P(Sticking, SuddenLoadMovesMicrometres) {
-  OnFloor s = steep_block(1.2, 0);
-  s.shape_functions = std::get<0>(GetParam());
-  s.floor = std::get<1>(GetParam());
-  s.end = 0.012;
-  const Motion m = follow(s, Places::yes);
-  const double most = *std::max_element(m.x.begin(), m.x.end());
-  RecordProperty("most", fmt::format("{:.4f} of static", most / elastic_way));
-  EXPECT_LT(most, (s.shape_functions == "bspline" ? 9.5 : 6.5) * elastic_way);
+/// Sudden gravity overshoots to twice the static displacement where the foot is glued. Pressed only, the block bounces: whenever its weight
+/// is off the floor it slips, whatever mu. An explicit finite element code with Signorini-Coulomb contact (lumped masses, elements of 2 mm)
+/// slides 7.7 static displacements in 12 ms with mu = 1.2 (21 with 1 mm), and 57 with mu = .7. No more than 7.7 here, with the tolerance
+/// of the elastic displacement.
+TEST_P(Sticking, SuddenLoad) {
+  const double least = elastic_way * (1 + GetParam().tolerance);
+  for (const bool glued : {true, false}) {
+    OnFloor s = steep_block(glued ? "{ law = \"adhesive\", normal_strength = 1e6, shear_strength = 1e6 }" : coulomb(1.2), "1");
+    s.shape_functions = GetParam().shape_functions;
+    s.end = 0.012;
+    const Motion m = follow(s, Places::yes);
+    const double most = *std::max_element(m.x.begin(), m.x.end());
+    RecordProperty(glued ? "glued_of_static" : "pressed_of_static", fmt::format("{:.4f}", most / elastic_way));
+    EXPECT_LT(most, (glued ? 2 : 7.7) * least);
+  }
 }
-INSTANTIATE_TEST_SUITE_P(Blocks, Sticking,
-                         testing::Combine(testing::Values("linear", "gimp", "bspline"), testing::Values("wall", "rigid")));
+INSTANTIATE_TEST_SUITE_P(Blocks, Sticking, testing::Values(Stuck{"linear", 0.12}, Stuck{"gimp", 0.12}, Stuck{"bspline", 0.3}));
 
-struct Pressed {
-  const char* shape_functions;
-  double floor_speed;  ///< m/s, backwards
-  double tolerance;
-};
-void PrintTo(const Pressed& c, std::ostream* out) { *out << c.shape_functions << ", floor at " << c.floor_speed << " m/s"; }
-class PressedBlock : public testing::TestWithParam<Pressed> {};
+class PressedBlock : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
-/// 176465 Pa on top and 588235 Pa on 12 mm of the end of a block of 40 x 15 mm, mu = .5: (7059 - .5 7059) N on .6 kg, 5882 m/s2. Damped at
-/// the rate k it ends at a speed of that over k. Friction sets up stick and slip in a block so soft (2 m/s are the speed of its waves' particles);
-/// where linear shape functions shake, they hold the mean to 2 % only.
+/// 176465 Pa on the top of a block of 40 x 15 mm, mu = .5, and 588235 Pa on 12 mm of its end: 7058.8 N less .5 x 7058.6 N on 0.6 kg. Cells of
+/// 2 mm: finer ones resolve modes that friction makes grow (finite elements have them too, at rates of 1/cell), which slip to and fro and
+/// so lower the friction: 6 % more acceleration with cells of 1 mm, where mu = .3 is right within .01 %.
 TEST_P(PressedBlock, Accelerates) {
-  const Pressed& c = GetParam();
-  constexpr double rise = 0.4e-3, k = 3e4;
+  constexpr double T_1 = 0.4e-3, T_2 = 0.6e-3, release = 1.4e-3;
   OnFloor s;
   s.width = 0.04;
   s.height = 0.015;
-  s.cell = 0.001;
+  s.cell = 0.002;
   s.E = 1e8;
   s.gravity_y = "0";
   s.law = coulomb(0.5);
-  s.shape_functions = c.shape_functions;
-  s.damping = fmt::format("{}", k);
-  s.end = 1.5e-3;
+  s.shape_functions = std::get<0>(GetParam());
+  s.floor = std::get<1>(GetParam());
+  s.damping = fmt::format("{{ times = [0, {}, {}], values = [5e4, 5e4, 0] }}", release - 0.05e-3, release);
+  s.end = 1.7e-3;
   s.room = 0.004;
-  s.more = fmt::format(R"in(velocity = [{}, 0]
+  s.more = fmt::format(R"in(
 [[load]]
 kind = "pressure"
 body = "body"
@@ -518,25 +531,22 @@ face = "x-"
 region = {{ kind = "rectangle", low = [0, 0], high = [{}, 0.012] }}
 value = [{{ expression = "588235*(t < {} ? 0 : t < {} ? (1 - cos(_pi*(t - {})/{}))/2 : 1)" }}, 0]
 )in",
-                       -c.floor_speed, eased(rise), s.cell, rise, 2 * rise, rise, rise);
+                       eased(T_1), s.cell, T_1, T_1 + T_2, T_1, T_2);
   const Motion m = follow(s);
-  const std::size_t first = m.first(2 * rise + 5 / k);
-  double mean = 0;
-  for (std::size_t i = first; i < m.t.size(); ++i) mean += m.v[i] / static_cast<double>(m.t.size() - first);
-  const double expected = (588235 * 0.012 - 0.5 * 176465 * 0.04) / m.mass;
-  const double a = k * mean + (m.v.back() - m.v[first]) / (m.t.back() - m.t[first]);
+  const double expected = (588235 * 0.012 - 0.5 * 176465 * 0.04) / m.mass, a = slope(m, m.v, release);
   RecordProperty("acceleration", fmt::format("{:.1f} of {:.1f}, {:.3f} %", a, expected, 100 * (a / expected - 1)));
-  EXPECT_NEAR(a, expected, c.tolerance * expected);
+  EXPECT_NEAR(a, expected, 0.005 * expected);
 }
 INSTANTIATE_TEST_SUITE_P(Floors, PressedBlock,
-                         testing::Values(Pressed{"bspline", 0, 0.003}, Pressed{"bspline", 5, 0.003}, Pressed{"gimp", 5, 0.025}));
+                         testing::Combine(testing::Values<std::string>("linear", "gimp", "bspline"),
+                                          testing::Values<std::string>("wall", "body")));
 
 /// A block with mu = .3 on a deformable floor of 30 degrees: within .3 % of g sin(30 degrees).
 class DeformableIncline : public testing::TestWithParam<const char*> {};
 
 TEST_P(DeformableIncline, AcceleratesAsCoulombSays) {
   constexpr double ramp = 0.013;
-  OnFloor s = steep_block(0.3, ramp);
+  OnFloor s = steep_block(coulomb(0.3), eased(ramp));
   s.floor = "body";
   s.shape_functions = GetParam();
   s.end = 0.04;

@@ -77,22 +77,22 @@ CrackSurfaces::CrackSurfaces(const State<2>& state, const Model<2>& model)
   bins_.build({model.grid.origin, model.grid.cell, model.grid.cells, surface_reach, surface_reach}, paths_);
 }
 
-Vec<2> CrackSurfaces::into_body(const Vec<2>& end) const {
-  Vec<2> step{};
+Vec<2> CrackSurfaces::off_mirrors(Vec<2> x, const Vec<2>& vertex) const {
   for (const SymmetryPlane& plane : model_.symmetries) {
     const auto k = static_cast<std::size_t>(plane.axis);
-    if (std::fabs(end[k] - plane.at) < nudge_) step[k] += plane.side * nudge_;
+    if (std::fabs(vertex[k] - plane.at) < nudge_) x[k] = plane.at + plane.side * nudge_;
   }
-  return step;
+  return x;
 }
 
 Vec<2> CrackSurfaces::seen_from(const Crack<2>& crack, std::size_t v, const Vec<2>& surface, double side) const {
   const Vec<2> out = vertex_normal(crack, v) * side;  // from the plane to the surface
-  const Vec<2> into = into_body(crack.plane[v]), beside = crack.plane[v] + out * nudge_ + into;
+  const Vec<2> beside = off_mirrors(crack.plane[v] + out * nudge_, crack.plane[v]);
   if (!(dot(surface - crack.plane[v], out) > nudge_)) return beside;
+  const Vec<2> itself = off_mirrors(surface, crack.plane[v]);
   Signature between;
-  const bool sees = signature(beside, surface, within_reach(beside, surface), between);
-  return sees && between == Signature{} ? surface + into : beside;
+  const bool sees = signature(beside, itself, within_reach(beside, itself), between);
+  return sees && between == Signature{} ? itself : beside;
 }
 Vec<2> CrackSurfaces::above(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.upper[v], -1); }
 Vec<2> CrackSurfaces::below(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.lower[v], 1); }

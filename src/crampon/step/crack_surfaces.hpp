@@ -32,8 +32,8 @@ class CrackSurfaces {
   CrackSurfaces(const State<2>& state, const Model<2>& model);
 
   /// Where a side is looked at from: the surface point; where that may lie a hair beyond a crack and would go with the wrong side for good,
-  /// that is while its own crack is closed or across another one, the vertex of the plane, moved a little to the side. On a mirror, where the path ends but not the crack,
-  /// moved a little into the body too.
+  /// that is while its own crack is closed or across another one, the vertex of the plane, moved a little to the side. On a mirror, where the
+  /// path ends but not the crack, a little inside the body.
   Vec<2> above(const Crack<2>& crack, std::size_t vertex) const;
   Vec<2> below(const Crack<2>& crack, std::size_t vertex) const;
 
@@ -81,8 +81,8 @@ class CrackSurfaces {
 
  private:
   Vec<2> seen_from(const Crack<2>& crack, std::size_t vertex, const Vec<2>& surface, double side) const;
-  /// The small step from a mirror into the body; zero away from mirrors.
-  Vec<2> into_body(const Vec<2>& end) const;
+  /// x, which belongs to the vertex; where that lies on a mirror, x as far along the mirror and a little inside.
+  Vec<2> off_mirrors(Vec<2> x, const Vec<2>& vertex) const;
   bool within_reach(const Vec<2>& from, const Vec<2>& x) const;
   /// Cracks between `from` and a node; false when there are too many.
   bool signature(const Vec<2>& from, const Vec<2>& node, bool near, Signature& side) const;
