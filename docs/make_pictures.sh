@@ -19,6 +19,14 @@ run composite composite contact
 draw composite --quantity stress_xx --time "0.05 ms" "0.1 ms" --panel 2x1 --magnify 10 --output docs/pictures/composite.png
 run cohesive_dcb cohesive_dcb contact
 draw cohesive_dcb --quantity stress_yy --magnify 3 --frame -1 --output docs/pictures/cohesive_dcb.png
+draw cohesive_dcb --against "crack_length [m] = (1.5*0.83333*0.4*max(time - 5e-4, 0)/max(reaction_y.top, 0.1))^(1/3)" \
+  --history "energy_release_rate [J/m2] = reaction_y.top^2*crack_length^2/(1e-3*0.83333)" "toughness [J/m2] = 500" \
+  --window "56 mm" "85 mm" 0 "600 J/m2" --title "R-curve of a cohesive double cantilever beam" --output docs/pictures/r_curve.png
+run hertz hertz contact
+draw hertz --profile x --quantity stress_yy --mean --window "-2 mm" "2 mm" "-0.3 mm" "0.1 mm" \
+  --over "Hertz = -59.14e6*sqrt(max(0, 1 - (x/1.0764e-3)^2))" --output docs/pictures/hertz.png
+run incline incline contact
+draw incline --quantity velocity_x --time 0 "40 ms" "80 ms" "100 ms" --panel 2x2 --output docs/pictures/incline.png
 run five_disks_friction five_disks_friction contact
 draw five_disks_friction --fringes --frame -1 --output docs/pictures/five_disks_friction.png
 run indenter indenter contact

@@ -227,6 +227,10 @@ class CliTest(unittest.TestCase):
             ("--time", "5 ms", "--magnify", "2", "--palette", "grey", "-o", "c.png"): 1,
             ("--frame", "-1", "--window", "3", "5", "3", "5", "-o", "d.png"): 1,
             ("--history", "kinetic_energy", "momentum_x", "-o", "plot.png"): 1,
+            ("--history", "power [W] = 2*kinetic_energy/(time + 1)", "--against", "twice [s] = 2*time", "-o", "power.png"): 1,
+            ("--profile", "x", "--quantity", "velocity_x", "--window", "3", "5", "3", "5", "--mean", "--over", "line = 2*x + t",
+             "-o", "profile.png"): 1,
+            ("--profile", "y", "--all", "--quantity", "stress_yy", "-o", "profiles.png"): 1,
         }
         for arguments, count in pictures.items():
             out, _ = self.call("draw", "small.results", *arguments)
@@ -242,6 +246,13 @@ class CliTest(unittest.TestCase):
         self.assertIn("3 frames", self.call("draw", "small.results", "--frame", "7", code=2)[1])
         self.assertIn("2x3", self.call("draw", "small.results", "--panel", "two", code=2)[1])
         self.call("draw", "small.results", "--time", "5 kg", code=2)
+        for arguments, word in ((("--history", "a [J] = 2*tame"), '"tame"'), (("--history", "a [mm] = 2*time"), "SI"),
+                                (("--history", "time = 2"), "another name"), (("--history", "= 2"), "no name"),
+                                (("--against", "time"), "--history"), (("--over", "a = x"), "--profile"), (("--profile", "r"), "x,y,z"),
+                                (("--profile", "x", "--quantity", "velocity", "--over", "x"), "label = formula"),
+                                (("--profile", "x", "--quantity", "velocity", "--over", "a = y"), '"y"'),
+                                (("--profile", "x", "--quantity", "velocity", "--window", "90", "91", "90", "91"), "nothing to plot")):
+            self.assertIn(word, self.call("draw", "small.results", *arguments, code=2)[1])
         self.assertIn("nowhere", self.call("draw", "nowhere", code=4)[1])
         self.assertIn("nowhere", self.call("check", "nowhere", code=4)[1])
         self.assertIn("nowhere", self.call("info", "nowhere", code=4)[1])

@@ -119,13 +119,33 @@ int run_command_line(int argc, const char* const* argv) {
   sub->add_option("--magnify", draw.magnify, "draw displacements this many times larger")->type_name("FACTOR")->check(positive);
   sub->add_option("--range", draw.range, "ends of the colour range, e.g. \"-5 MPa\" \"5 MPa\"")->type_name("LOW HIGH")->expected(2);
   sub->add_flag("--symmetric", draw.symmetric, "colour range symmetric about zero");
-  sub->add_option("--window", draw.window, "part to draw, m or with units")->type_name("X0 X1 Y0 Y1")->expected(4);
+  sub->add_option("--window", draw.window, "part to draw, m or with units; of a plot of histories: ends of both axes")
+      ->type_name("X0 X1 Y0 Y1")
+      ->expected(4);
   sub->add_option("--palette", draw.palette, "uniform, grey or diverging; left out: chosen by the quantity")
       ->type_name("NAME")
       ->check(CLI::IsMember({"uniform", "grey", "diverging"}));
   sub->add_flag("--fringes", draw.fringes, "photoelastic fringes (N03 Eq. 23), in grey");
   sub->add_option("--fringe-constant", draw.fringe_constant, "k_f of the fringes, 1/MPa; left out: 0.0889")->type_name("K");
-  sub->add_option("--history", draw.history, "plot these columns of history.csv over time instead")->type_name("COLUMN")->expected(1, -1);
+  CLI::Option* history = sub->add_option("--history", draw.history,
+                                         "plot columns of history.csv over time instead, or \"name [unit] = formula of columns\", in SI")
+                             ->type_name("COLUMN")
+                             ->expected(1, -1);
+  sub->add_option("--against", draw.against, "with --history: this column, or formula, along the horizontal axis")
+      ->type_name("COLUMN")
+      ->needs(history);
+  CLI::Option* profile =
+      sub->add_option("--profile", draw.profile, "plot the quantity of every particle in --window over x, y or z instead")
+          ->type_name("AXIS")
+          ->check(CLI::IsMember({"x", "y", "z"}))
+          ->excludes(history);
+  sub->add_flag("--mean", draw.mean, "with --profile: the mean over the particles in strips one cell wide")->needs(profile);
+  sub->add_option("--over", draw.over,
+                  "with --profile: a curve drawn over it, \"label = formula of the axis and t\", in SI; may be repeated")
+      ->type_name("CURVE")
+      ->expected(1)
+      ->take_all()
+      ->needs(profile);
   sub->add_option("--compare", draw.compare, "with --history: the same columns of these results in the same plot")
       ->type_name("RESULTS")
       ->expected(1, -1);
@@ -136,7 +156,9 @@ int run_command_line(int argc, const char* const* argv) {
   sub->footer(
       "Examples:\n  crampon draw crack.results --quantity stress_yy --magnify 20 --time \"15 us\"\n"
       "  crampon draw disks.results --panel 2x2 --quantity velocity\n"
-      "  crampon draw disks.results --history kinetic_energy strain_energy -o energy.png");
+      "  crampon draw disks.results --history kinetic_energy strain_energy -o energy.png\n"
+      "  crampon draw dcb.results --history reaction_y.top --against \"opening [m] = 0.2*time\"\n"
+      "  crampon draw hertz.results --profile x --quantity stress_yy --over \"Hertz = -6e7*sqrt(max(0, 1 - (x/1.1e-3)^2))\"");
 
   CheckArguments check;
   sub = app.add_subcommand("check", "compare results with the [[expect]] entries of their input");

@@ -69,9 +69,13 @@ struct DrawArguments {
   bool symmetric = false;
   bool fringes = false;
   std::optional<double> fringe_constant;  ///< 1/MPa
-  std::vector<std::string> history;
-  std::vector<std::string> compare;  ///< further results folders whose histories join the plot
-  std::optional<std::string> title;  ///< else the run's
+  std::vector<std::string> history;       ///< columns, or "name [unit] = formula of columns"
+  std::string against;                    ///< column for the horizontal axis, likewise; empty: time
+  std::string profile;                    ///< "x", "y" or "z": plot the quantity of each particle over this coordinate
+  bool mean = false;                      ///< of the particles in strips of a cell's width along that coordinate
+  std::vector<std::string> over;          ///< "label = formula of x, y or z and t", drawn over a profile
+  std::vector<std::string> compare;       ///< further results folders whose histories join the plot
+  std::optional<std::string> title;       ///< else the run's
   int width = 1200;
   std::string output;
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <deque>
@@ -7,79 +8,22 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "crampon/core/units.hpp"
 #include "crampon/output/draw.hpp"
-#include "crampon/output/plot.hpp"
 #include "crampon/output/results_folder.hpp"
 #include "crampon/output/run_record.hpp"
+#include "draw_arguments.hpp"
+#include "draw_plots.hpp"
 
 namespace crampon::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// "5 MPa" in SI; a plain number is SI.
-double number(const std::string& text, const char* option, const char* unit) {
-  char* end = nullptr;
-  const double plain = std::strtod(text.c_str(), &end);
-  if (end != text.c_str() && *end == '\0' && std::isfinite(plain)) return plain;
-  try {
-    return parse_quantity(text, unit);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("{}: {}", option, error.what()));
-  }
-}
-
-struct Grid {
-  int rows = 0, columns = 0;
-};
-
-Grid panel_grid(const std::string& text) {
-  Grid grid;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &grid.rows, &grid.columns, &rest) != 2 || grid.rows < 1 || grid.columns < 1 || grid.rows > 20 ||
-      grid.columns > 20)
-    throw UsageError(fmt::format("--panel {}: rows and columns are wanted, such as 2x3 (at most 20x20)", text));
-  return grid;
-}
-
-/// Which frames to draw, as indices into the series.
-std::vector<std::size_t> choose_frames(const DrawArguments& arguments, const std::vector<PvdEntry>& frames) {
-  const auto count = static_cast<std::ptrdiff_t>(frames.size());
-  std::vector<std::size_t> chosen;
-  for (const int wanted : arguments.frames) {
-    const std::ptrdiff_t index = wanted < 0 ? count + wanted : wanted;
-    if (index < 0 || index >= count) throw UsageError(fmt::format("--frame {}: there are {} frames, numbered from 0", wanted, count));
-    chosen.push_back(static_cast<std::size_t>(index));
-  }
-  for (const std::string& text : arguments.times) {
-    const double wanted = number(text, "--time", "s");
-    const auto nearest = std::min_element(frames.begin(), frames.end(), [wanted](const PvdEntry& a, const PvdEntry& b) {
-      return std::abs(a.time - wanted) < std::abs(b.time - wanted);
-    });
-    chosen.push_back(static_cast<std::size_t>(nearest - frames.begin()));
-  }
-  if (arguments.all)
-    for (std::size_t i = 0; i < frames.size(); ++i) chosen.push_back(i);
-  if (!chosen.empty()) return chosen;
-  if (arguments.panel.empty()) return {frames.size() - 1};
-  const Grid grid = panel_grid(arguments.panel);
-  const auto places = std::min<std::size_t>(static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns), frames.size());
-  for (std::size_t k = 0; k < places; ++k)  // evenly spread, the last frame always
-    chosen.push_back(places == 1 ? frames.size() - 1 : (k * (frames.size() - 1) + (places - 1) / 2) / (places - 1));
-  return chosen;
-}
-
 /// Picture or folder to write to: what has an extension is a picture.
 void check_picture_name(const DrawArguments& arguments) {
   const fs::path extension = fs::path(arguments.output).extension();
   if (!extension.empty() && extension != ".png")
     throw UsageError(fmt::format("--output {}: pictures are PNG files; name it *.png, or a folder", arguments.output));
-}
-
-std::string coloured_by(const DrawArguments& arguments) {
-  if (arguments.fringes) return "fringes";
-  return arguments.quantity.empty() ? DrawOptions().quantity : arguments.quantity;
 }
 
 /// unit: of the quantity drawn.
@@ -95,46 +39,13 @@ DrawOptions picture_options(const DrawArguments& arguments, const std::string& t
     options.highest = number(arguments.range[1], "--range", unit.c_str());
     if (!(*options.lowest < *options.highest)) throw UsageError("--range: the first value must be below the second");
   }
-  if (arguments.window.size() == 4) {
-    std::array<double, 4>& window = options.window.emplace();
-    for (std::size_t k = 0; k < 4; ++k) window[k] = number(arguments.window[k], "--window", "m");
-    if (!(window[0] < window[1] && window[2] < window[3])) throw UsageError("--window: X0 < X1 and Y0 < Y1 are wanted");
-  }
+  options.window = window_of(arguments, "m", "m");
   options.magnification = arguments.magnify;
   options.fringe_constant = arguments.fringe_constant.value_or(paper_fringe_constant);
   options.title = title;
   options.width = arguments.width;
   if (!arguments.panel.empty()) options.columns = panel_grid(arguments.panel).columns;
   return options;
-}
-
-void made(const fs::path& file) { fmt::print("{}\n", file.string()); }
-
-fs::path prepared(const fs::path& file) {
-  if (file.has_parent_path()) fs::create_directories(file.parent_path());
-  return file;
-}
-
-void plot(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& title) {
-  PlotOptions options;
-  options.title = title;
-  options.width = arguments.width;
-  options.height = arguments.width * 3 / 5;
-  const fs::path file = prepared(arguments.output.empty() ? folder.path() / "pictures" / "history.png" : fs::path(arguments.output));
-  std::vector<fs::path> folders = {folder.path()};
-  folders.insert(folders.end(), arguments.compare.begin(), arguments.compare.end());
-  std::vector<History> histories;
-  for (const fs::path& path : folders) histories.push_back(read_history(ResultsFolder::open(path).history()));
-  std::vector<HistoryCurve> curves;
-  for (std::size_t i = 0; i < folders.size(); ++i) {
-    for (const std::string& column : arguments.history) {
-      const std::string run = (folders[i].has_filename() ? folders[i] : folders[i].parent_path()).stem().string();
-      const std::string label = folders.size() == 1 ? column : arguments.history.size() == 1 ? run : run + ", " + column;
-      curves.push_back({&histories[i], column, label});
-    }
-  }
-  plot_history(curves, options, file);
-  made(file);
 }
 
 /// A frame with its cracks, in memory.
@@ -214,7 +125,9 @@ int draw_command(const DrawArguments& arguments) {
   const std::string title = arguments.title.value_or(read_run_record(folder.run_record()).title);
   try {
     if (!arguments.history.empty())
-      plot(arguments, folder, title);
+      draw_history(arguments, folder, title);
+    else if (!arguments.profile.empty())
+      draw_profile(arguments, folder, title);
     else
       draw_pictures(arguments, folder, title);
   } catch (const std::invalid_argument& error) {  // names that these results do not know

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "crampon/core/formula.hpp"
 #include "crampon/core/function.hpp"
 
 namespace crampon {
@@ -181,6 +182,18 @@ TEST(ValueFunctions, ManyThreadsSeeTheirOwnArguments) {
     });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(wrong, std::vector<int>(4, 0));
+}
+
+TEST(Formulas, NameTheirVariables) {
+  Formula f("2*reaction_y.top + (time > 1)*time", {"time", "reaction_y.top"});
+  EXPECT_EQ(f(std::vector<double>{1, 3}), 6.);
+  EXPECT_EQ(f(std::vector<double>{2, 3}), 8.);
+  EXPECT_TRUE(f.uses("time"));
+  EXPECT_FALSE(f.uses("t"));
+  for (const char* good : {"t", "reaction_y.top", "_a1", "x.2"}) EXPECT_TRUE(is_formula_name(good)) << good;
+  for (const char* bad : {"", "1a", ".a", "left-most", "a b", "\xc3\xa9"}) EXPECT_FALSE(is_formula_name(bad)) << bad;
+  for (const char* bad : {"", "time = 2", "1, 2", "tame", "2*", "time\ntime"})
+    EXPECT_THROW(Formula(bad, {"time"}), std::invalid_argument) << bad;
 }
 
 }  // namespace

@@ -1,15 +1,21 @@
 #include "crampon/core/function.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <unordered_map>
 
 #include <fmt/format.h>
-#include <muParser.h>
+
+#include "crampon/core/formula.hpp"
 
 namespace crampon {
+
+namespace {
+const std::vector<std::string> variables{"t", "x", "y", "z"};
+}
 
 struct ValueFunction::Expression {
   std::string text;
@@ -20,57 +26,15 @@ struct ValueFunction::Expression {
   double evaluate(double t, const Vec<3>& x) const;
 };
 
-namespace {
-
-// muParser keeps pointers to the variables it reads, so one compiled parser belongs to one thread.
-struct Compiled {
-  double t = 0, x = 0, y = 0, z = 0;
-  mu::Parser parser;
-
-  explicit Compiled(const std::string& text) {
-    parser.DefineConst("pi", M_PI);
-    parser.DefineVar("t", &t);
-    parser.DefineVar("x", &x);
-    parser.DefineVar("y", &y);
-    parser.DefineVar("z", &z);
-    parser.DefineFun("if", [](double condition, double yes, double no) { return condition != 0 ? yes : no; });
-    parser.SetExpr(text);
-  }
-};
-
-// Longer expressions than a page are a table in disguise; the limit also bounds muParser's work on hostile input.
-constexpr std::size_t longest_expression = 2000;
-
-void refuse_other_than_one_value(const std::string& text) {
-  if (text.find_first_not_of(" \t\n\r") == std::string::npos) throw std::invalid_argument("the expression is empty");
-  if (text.size() > longest_expression)
-    throw std::invalid_argument(fmt::format("the expression has more than {} characters", longest_expression));
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const char c = text[k];
-    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e || c == '"' || c == '\\' || c == '\'')
-      throw std::invalid_argument(fmt::format("unexpected character at position {}", k));
-    // muParser would assign to t.
-    const bool comparison = (k > 0 && std::string("=!<>").find(text[k - 1]) != std::string::npos) || text.substr(k + 1, 1) == "=";
-    if (c == '=' && !comparison) throw std::invalid_argument(fmt::format("unexpected \"=\" at position {}: compare with ==", k));
-  }
-}
-
-}  // namespace
-
 double ValueFunction::Expression::evaluate(double t, const Vec<3>& x) const {
   // Compiled once per thread; dropped together when there are far more than any one problem has.
-  thread_local std::unordered_map<std::uint64_t, std::unique_ptr<Compiled>> compiled;
+  thread_local std::unordered_map<std::uint64_t, Formula> compiled;
   auto found = compiled.find(id);
   if (found == compiled.end()) {
     if (compiled.size() >= 512) compiled.clear();
-    found = compiled.emplace(id, std::make_unique<Compiled>(text)).first;
+    found = compiled.emplace(id, Formula(text, variables)).first;
   }
-  Compiled& c = *found->second;
-  c.t = t;
-  c.x = x[0];
-  c.y = x[1];
-  c.z = x[2];
-  return scale * c.parser.Eval();
+  return scale * found->second(std::array<double, 4>{t, x[0], x[1], x[2]});
 }
 
 ValueFunction ValueFunction::constant(double value) {
@@ -93,21 +57,14 @@ ValueFunction ValueFunction::table(std::vector<double> times, std::vector<double
 }
 
 ValueFunction ValueFunction::expression(const std::string& text, double scale) {
-  refuse_other_than_one_value(text);
+  const Formula formula(text, variables);
   static std::atomic<std::uint64_t> next_id{1};
   auto e = std::make_shared<Expression>();
   e->text = text;
   e->scale = scale;
   e->id = next_id++;
-  try {
-    Compiled compiled(text);
-    int results = 0;
-    compiled.parser.Eval(results);
-    if (results != 1) throw std::invalid_argument("the expression has several values");
-    for (const auto& [name, address] : compiled.parser.GetUsedVar()) (name == "t" ? e->in_time : e->in_space) = true;
-  } catch (const mu::ParserError& error) {
-    throw std::invalid_argument(error.GetMsg());
-  }
+  e->in_time = formula.uses("t");
+  e->in_space = formula.uses("x") || formula.uses("y") || formula.uses("z");
   ValueFunction f;
   f.expression_ = std::move(e);
   return f;

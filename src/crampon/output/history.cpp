@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "crampon/core/closest_name.hpp"
+#include "crampon/core/formula.hpp"
 #include "crampon/output/file.hpp"
 
 namespace crampon {
@@ -122,6 +123,30 @@ HistoryStatistics History::statistics(std::string_view name, double from, double
   // min_element passes over NaN; a range with one has no extremes.
   if (std::any_of(curve.begin(), curve.end(), [](double v) { return v != v; })) s.minimum = s.maximum = s.spread = s.mean;
   return s;
+}
+
+void History::add_column(const HistoryColumn& column, const std::string& formula) {
+  if (has_column(column.name))
+    throw std::invalid_argument(fmt::format("the history has a column \"{}\"; give the new one another name", column.name));
+  std::vector<std::string> names;  // those that a formula can hold: a crack may be called "left-most"
+  std::vector<const std::vector<double>*> used;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (!is_formula_name(columns[k].name)) continue;
+    names.push_back(columns[k].name);
+    used.push_back(&values[k]);
+  }
+  try {
+    Formula evaluate(formula, names);
+    std::vector<double> row(names.size()), result(rows());
+    for (std::size_t i = 0; i < rows(); ++i) {
+      for (std::size_t k = 0; k < used.size(); ++k) row[k] = (*used[k])[i];
+      result[i] = evaluate(row);
+    }
+    columns.push_back(column);
+    values.push_back(std::move(result));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}; it may use: {}", column.name, error.what(), fmt::join(names, ", ")));
+  }
 }
 
 History read_history(const std::filesystem::path& path) {

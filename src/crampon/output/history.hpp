@@ -55,6 +55,9 @@ struct History {
   double value_at(std::string_view name, double time) const;
   /// Over [from, to], ends interpolated. Throws as value_at, and std::invalid_argument when to < from.
   HistoryStatistics statistics(std::string_view name, double from, double to) const;
+  /// Adds a column that is computed from others, row by row; unit in SI. Throws std::invalid_argument (what the formula's parser says; a name
+  /// that the history has).
+  void add_column(const HistoryColumn& column, const std::string& formula);
 };
 
 /// Reads history.csv. A last line without its end (killed run) is left out. Throws std::runtime_error "path:line: reason".

@@ -174,6 +174,7 @@ PlotMap plot_areas(std::vector<Area> areas, const PlotOptions& options, const st
         throw std::invalid_argument(fmt::format("curve \"{}\": x and y differ in length", curve->label));
       for (std::size_t i = 0; i < curve->x.size(); ++i) {
         if (!std::isfinite(curve->x[i]) || !std::isfinite(curve->y[i])) continue;
+        if (curve->x[i] < options.x_lowest.value_or(-INFINITY) || curve->x[i] > options.x_highest.value_or(INFINITY)) continue;
         x.include(curve->x[i]);
         area.y.include(curve->y[i]);
       }
@@ -249,8 +250,8 @@ PlotMap plot_history(const std::vector<HistoryCurve>& curves, const PlotOptions&
   std::vector<std::string> names, units;
   for (const HistoryCurve& c : curves) {
     const std::string name = spaced(c.column);
-    drawn.push_back({c.label.empty() ? name : c.label, c.history->values.empty() ? std::vector<double>{} : c.history->values[0],
-                     c.history->column(c.column), CurveStyle::line});
+    const std::string along = c.over.empty() ? c.history->columns.at(0).name : c.over;
+    drawn.push_back({c.label.empty() ? name : c.label, c.history->column(along), c.history->column(c.column), CurveStyle::line});
     names.push_back(name);
     units.push_back(c.history->unit(c.column));
   }
@@ -267,8 +268,9 @@ PlotMap plot_history(const std::vector<HistoryCurve>& curves, const PlotOptions&
   }
   if (areas.empty()) throw std::invalid_argument("there is nothing to plot: no column");
   PlotOptions filled = options;
-  if (filled.x_name.empty()) filled.x_name = "time";
-  if (filled.x_unit.empty()) filled.x_unit = "s";
+  const std::string& along = curves[0].over;
+  if (filled.x_name.empty()) filled.x_name = along.empty() ? "time" : spaced(along);
+  if (filled.x_unit.empty()) filled.x_unit = along.empty() ? "s" : curves[0].history->unit(along);
   if (areas.size() == 1 && !options.y_name.empty()) areas[0].name = options.y_name;
   return plot_areas(std::move(areas), filled, path);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Line plots (PNG): history columns over time, and profiles from arrays.
+/// Line plots (PNG): history columns over time or each other, and profiles from arrays.
 
 #include <array>
 #include <filesystem>
@@ -48,10 +48,11 @@ PlotMap plot_profiles(const std::vector<Curve>& curves, const PlotOptions& optio
 struct HistoryCurve {
   const History* history = nullptr;
   std::string column;
-  std::string label;  ///< empty: the column's name
+  std::string label;   ///< empty: the column's name
+  std::string over{};  ///< column along the horizontal axis; empty: the time
 };
 
-/// Columns over time; those of different units go to areas above each other that share the time axis.
+/// Columns over time or another column; those of different units go to areas above each other that share the axis.
 /// Throws as plot_profiles, and std::out_of_range for an unknown column.
 PlotMap plot_history(const std::vector<HistoryCurve>& curves, const PlotOptions& options, const std::filesystem::path& path);
 PlotMap plot_history(const History& history, const std::vector<std::string>& columns, const PlotOptions& options,

@@ -1,0 +1,150 @@
+#include "draw_plots.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "crampon/core/formula.hpp"
+#include "crampon/core/units.hpp"
+#include "crampon/output/display_scale.hpp"
+#include "crampon/output/plot.hpp"
+#include "crampon/output/quantity.hpp"
+#include "draw_arguments.hpp"
+
+namespace crampon::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "name [unit] = formula" in its parts; a text without "=" is a name alone.
+struct NamedFormula {
+  std::string name, unit, formula;
+};
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
+
+NamedFormula named_formula(const std::string& text, const char* option) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return {trimmed(text), "", ""};
+  NamedFormula parts{trimmed(text.substr(0, equals)), "", trimmed(text.substr(equals + 1))};
+  const std::size_t bracket = parts.name.find('[');
+  if (bracket != std::string::npos && parts.name.back() == ']') {
+    parts.unit = trimmed(parts.name.substr(bracket + 1, parts.name.size() - bracket - 2));
+    parts.name = trimmed(parts.name.substr(0, bracket));
+  }
+  if (parts.name.empty()) throw UsageError(fmt::format("{} \"{}\": there is no name before \"=\"", option, text));
+  if (!parts.unit.empty() && unit_factor(parts.unit, "any") != 1)
+    throw UsageError(fmt::format("{} \"{}\": formulas are in SI, and so is their unit; \"{}\" is not", option, text, parts.unit));
+  return parts;
+}
+
+/// The column that an option names, added to the history where it is a formula.
+std::string column_of(History& history, const std::string& text, const char* option) {
+  const NamedFormula parts = named_formula(text, option);
+  if (!parts.formula.empty()) history.add_column({parts.name, parts.unit}, parts.formula);
+  return parts.name;
+}
+
+PlotOptions plot_options(const DrawArguments& arguments, const std::string& title) {
+  PlotOptions options;
+  options.title = title;
+  options.width = arguments.width;
+  options.height = arguments.width * 3 / 5;
+  return options;
+}
+
+/// Particles whose mean is one mark.
+struct Strip {
+  double x = 0, value = 0;
+  int count = 0;
+  void add(double x_of, double value_of) { x += x_of, value += value_of, ++count; }
+};
+
+}  // namespace
+
+void draw_history(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& title) {
+  PlotOptions options = plot_options(arguments, title);
+  const fs::path file = prepared(arguments.output.empty() ? folder.path() / "pictures" / "history.png" : fs::path(arguments.output));
+  std::vector<fs::path> folders = {folder.path()};
+  folders.insert(folders.end(), arguments.compare.begin(), arguments.compare.end());
+  std::vector<History> histories;
+  for (const fs::path& path : folders) histories.push_back(read_history(ResultsFolder::open(path).history()));
+  std::vector<HistoryCurve> curves;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const std::string along = arguments.against.empty() ? "" : column_of(histories[i], arguments.against, "--against");
+    for (const std::string& text : arguments.history) {
+      const std::string column = column_of(histories[i], text, "--history");
+      const std::string run = (folders[i].has_filename() ? folders[i] : folders[i].parent_path()).stem().string();
+      const std::string label = folders.size() == 1 ? "" : arguments.history.size() == 1 ? run : run + ", " + column;
+      curves.push_back({&histories[i], column, label, along});
+    }
+  }
+  const std::string x_unit = curves[0].over.empty() ? "s" : histories[0].unit(curves[0].over);
+  if (const auto window = window_of(arguments, x_unit, histories[0].unit(curves[0].column))) {
+    options.x_lowest = (*window)[0], options.x_highest = (*window)[1];
+    options.y_lowest = (*window)[2], options.y_highest = (*window)[3];
+  }
+  plot_history(curves, options, file);
+  made(file);
+}
+
+void draw_profile(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& title) {
+  const std::vector<PvdEntry> frames = folder.particle_frames();
+  if (frames.empty()) throw UsageError(fmt::format("{}: there are no frames to draw", folder.path().string()));
+  const std::vector<std::size_t> chosen = choose_frames(arguments, frames);
+  const auto axis = static_cast<std::size_t>(arguments.profile[0] - 'x');
+  PlotOptions options = plot_options(arguments, title);
+  options.x_name = arguments.profile;
+  options.x_unit = "m";
+  options.y_name = coloured_by(arguments);
+  const std::optional<std::array<double, 4>> window = window_of(arguments, "m", "m");
+
+  std::vector<Curve> curves;
+  double lowest = INFINITY, highest = -INFINITY, time = 0;
+  for (const std::size_t i : chosen) {
+    const PointFrame frame = folder.read_particles(frames[i]);
+    const Quantity quantity = evaluate_quantity(frame, options.y_name, arguments.fringe_constant.value_or(paper_fringe_constant));
+    Curve& curve = curves.emplace_back();
+    curve.label = quantity_text(frame.time, frames[chosen.back()].time, "s");
+    curve.style = CurveStyle::marks;
+    std::map<double, Strip> strips;
+    for (std::size_t p = 0; p < quantity.values.size(); ++p) {
+      const double* at = &frame.positions[3 * p];
+      if (window && !(at[0] >= (*window)[0] && at[0] <= (*window)[1] && at[1] >= (*window)[2] && at[1] <= (*window)[3])) continue;
+      lowest = std::min(lowest, at[axis]), highest = std::max(highest, at[axis]);
+      strips[arguments.mean && frame.cell > 0 ? std::floor(at[axis] / frame.cell) : static_cast<double>(p)].add(at[axis],
+                                                                                                                quantity.values[p]);
+    }
+    for (const auto& [place, strip] : strips) {
+      curve.x.push_back(strip.x / strip.count);
+      curve.y.push_back(strip.value / strip.count);
+    }
+    options.y_unit = quantity.unit;
+    time = frame.time;
+  }
+  for (const std::string& text : arguments.over) {
+    const NamedFormula parts = named_formula(text, "--over");
+    if (parts.formula.empty()) throw UsageError(fmt::format("--over \"{}\": \"label = formula\" is wanted", text));
+    Formula formula(parts.formula, {arguments.profile, "t"});
+    Curve& curve = curves.emplace_back();
+    curve.label = parts.name;
+    constexpr int intervals = 500;
+    for (int k = 0; k <= intervals && lowest <= highest; ++k) {
+      const double x = lowest + k * (highest - lowest) / intervals;
+      curve.x.push_back(x);
+      curve.y.push_back(formula(std::array<double, 2>{x, time}));
+    }
+  }
+  const fs::path file = prepared(arguments.output.empty() ? folder.path() / "pictures" / "profile.png" : fs::path(arguments.output));
+  plot_profiles(curves, options, file);
+  made(file);
+}
+
+}  // namespace crampon::app
