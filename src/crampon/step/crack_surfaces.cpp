@@ -97,6 +97,31 @@ Vec<2> CrackSurfaces::seen_from(const Crack<2>& crack, std::size_t v, const Vec<
 Vec<2> CrackSurfaces::above(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.upper[v], -1); }
 Vec<2> CrackSurfaces::below(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.lower[v], 1); }
 
+SurfaceNodes CrackSurfaces::nodes(const Vec<2>& from, const Vec<2>& x) const {
+  const bool near = within_reach(from, x);
+  SurfaceNodes out;
+  double mass = 0, shape = 0;
+  for (const NodeShare& node : nodes_around(state_, model_, x)) {
+    if (node.block == no_block || node.S == 0) continue;
+    SurfaceNode& on = out.list_[out.count_];
+    on = {node, {}, splat(0.), 0};
+    if (!signature(from, node.x, near, on.side)) continue;
+    for_layers(node, on.side, [&](std::size_t slot) { on.p += state_.nodes.momentum[slot]; });
+    if (!(on.p[2] > 0)) continue;
+    mass += node.S * on.p[2];
+    shape += node.S;
+    ++out.count_;
+  }
+  const double light = 0.5 * mass / shape;
+  double sum = 0;
+  for (std::size_t i = 0; i < out.count_; ++i) {
+    SurfaceNode& on = out.list_[i];
+    sum += on.weight = on.node.S * std::fmin(1., on.p[2] / light);
+  }
+  for (std::size_t i = 0; i < out.count_; ++i) out.list_[i].weight /= sum;
+  return out;
+}
+
 bool CrackSurfaces::within_reach(const Vec<2>& from, const Vec<2>& x) const {
   const Grid<2>& grid = model_.grid;
   const auto cell_of = [&](int k, double coordinate) {

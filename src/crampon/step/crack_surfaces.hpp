@@ -26,6 +26,30 @@ struct NodeShare {
 /// The nodes that S reaches from x; those out of reach have S = 0.
 std::array<NodeShare, 9> nodes_around(const State<2>& state, const Model<2>& model, const Vec<2>& x);
 
+/// A node with mass on one side of all cracks.
+struct SurfaceNode {
+  NodeShare node;
+  Signature side;
+  Pack p;  ///< {p, m} there, of all materials (N13 sec. 2.9)
+  double weight = 0;
+};
+
+/// The nodes about a point of a surface; none where no node has mass. The weights add up to 1 and serve motion and tractions alike, so that
+/// a traction's work on the nodes is its work on the opening. They are those of the plane, S: where faces press on each other they share
+/// the normal velocity at every node, and both surfaces then move as one; weights by mass let them drift by the strain over a third of a
+/// cell. Only nodes with less than half the mean mass weigh less, in proportion: a traction would throw them about.
+class SurfaceNodes {
+ public:
+  const SurfaceNode* begin() const { return list_.data(); }
+  const SurfaceNode* end() const { return list_.data() + count_; }
+  bool empty() const { return count_ == 0; }
+
+ private:
+  friend class CrackSurfaces;
+  std::array<SurfaceNode, 9> list_;
+  std::size_t count_ = 0;
+};
+
 /// The cracks as they are now, ready to tell which fields lie on which of their sides.
 class CrackSurfaces {
  public:
@@ -37,38 +61,8 @@ class CrackSurfaces {
   Vec<2> above(const Crack<2>& crack, std::size_t vertex) const;
   Vec<2> below(const Crack<2>& crack, std::size_t vertex) const;
 
-  /// f(node, side, p, weight) for the nodes around x with mass on the side of `from`: {p, m} there, of all materials (N13 sec. 2.9). The
-  /// weights add up to 1 and serve motion and tractions alike, so that a traction's work on the nodes is its work on the opening. They are
-  /// those of the plane, S: where faces press on each other they share the normal velocity at every node, and both surfaces then move as
-  /// one; weights by mass let them drift by the strain over a third of a cell. Only nodes with less than half the mean mass weigh less, in
-  /// proportion: a traction would throw them about.
-  template <class F>
-  void for_nodes(const Vec<2>& from, const Vec<2>& x, F f) const {
-    const bool near = within_reach(from, x);
-    const auto around = nodes_around(state_, model_, x);
-    std::array<Signature, 9> sides;
-    std::array<Pack, 9> packs;
-    double mass = 0, shape = 0;
-    for (std::size_t i = 0; i < around.size(); ++i) {
-      const NodeShare& node = around[i];
-      packs[i] = splat(0.);
-      if (node.block == no_block || node.S == 0 || !signature(from, node.x, near, sides[i])) continue;
-      for_layers(node, sides[i], [&](std::size_t slot) { packs[i] += state_.nodes.momentum[slot]; });
-      if (!(packs[i][2] > 0)) continue;
-      mass += node.S * packs[i][2];
-      shape += node.S;
-    }
-    if (!(mass > 0)) return;
-    const double light = 0.5 * mass / shape;
-    const auto weight = [&](std::size_t i) { return around[i].S * std::fmin(1., packs[i][2] / light); };
-    double sum = 0;
-    for (std::size_t i = 0; i < around.size(); ++i) {
-      if (packs[i][2] > 0) sum += weight(i);
-    }
-    for (std::size_t i = 0; i < around.size(); ++i) {
-      if (packs[i][2] > 0) f(around[i], sides[i], packs[i], weight(i) / sum);
-    }
-  }
+  /// The nodes around x with mass on the side of `from`.
+  SurfaceNodes nodes(const Vec<2>& from, const Vec<2>& x) const;
   /// f(slot of the node in the nodal arrays) for the fields of one side of all cracks; not those of rigid bodies.
   template <class F>
   void for_layers(const NodeShare& node, const Signature& side, F f) const {
@@ -80,6 +74,7 @@ class CrackSurfaces {
   }
 
  private:
+  /// `above` or `below`, for the surface on that side of the plane: -1 or 1 along the vertex normal.
   Vec<2> seen_from(const Crack<2>& crack, std::size_t vertex, const Vec<2>& surface, double side) const;
   /// x, which belongs to the vertex; where that lies on a mirror, x as far along the mirror and a little inside.
   Vec<2> off_mirrors(Vec<2> x, const Vec<2>& vertex) const;

@@ -10,20 +10,20 @@ namespace crampon {
 
 namespace {
 
-/// What a force on the surface point x of the side seen from `from` moves: with a share w of it for each node, 1/sum(w^2/m), kg; 0: nothing.
-double moved_mass(const CrackSurfaces& surfaces, const Vec<2>& from, const Vec<2>& x) {
+/// What a force on a surface point moves: with a share w of it for each node, 1/sum(w^2/m), kg; 0: nothing.
+double moved_mass(const SurfaceNodes& nodes) {
   double sum = 0;
-  surfaces.for_nodes(from, x, [&](const NodeShare&, const Signature&, Pack p, double w) { sum += w * w / p[2]; });
+  for (const SurfaceNode& on : nodes) sum += on.weight * on.weight / on.p[2];
   return sum > 0 ? 1 / sum : 0.;
 }
 
-/// Shares f among the nodes about x, and among the materials there by mass.
-void share_force(State<2>& state, const CrackSurfaces& surfaces, const Vec<2>& from, const Vec<2>& x, const Vec<2>& f) {
-  surfaces.for_nodes(from, x, [&](const NodeShare& node, const Signature& side, Pack p, double w) {
-    surfaces.for_layers(node, side, [&](std::size_t slot) {
-      state.scratch[node.block].tractions.push_back({slot, f * (w * state.nodes.momentum[slot][2] / p[2])});
+/// Shares f among the nodes, and among the materials there by mass.
+void share_force(State<2>& state, const CrackSurfaces& surfaces, const SurfaceNodes& nodes, const Vec<2>& f) {
+  for (const SurfaceNode& on : nodes) {
+    surfaces.for_layers(on.node, on.side, [&](std::size_t slot) {
+      state.scratch[on.node.block].tractions.push_back({slot, f * (on.weight * state.nodes.momentum[slot][2] / on.p[2])});
     });
-  });
+  }
 }
 
 }  // namespace
@@ -62,16 +62,16 @@ void spread_tractions<2>(State<2>& state, const Model<2>& model) {
     const double stiffness = largest_stiffness(model.tractions[c].law);
     for (std::size_t v = 0; v < t.area.size(); ++v) {
       if (t.area[v] == 0 || t.history[v].failed != 0) continue;
-      const Vec<2> above = surfaces.above(crack, v), below = surfaces.below(crack, v);
-      // A side without mass bears nothing, and neither does the other then.
-      const double m_a = moved_mass(surfaces, above, crack.upper[v]), m_b = moved_mass(surfaces, below, crack.lower[v]);
-      if (!(m_a > 0 && m_b > 0)) continue;
-      share_force(state, surfaces, above, crack.upper[v], t.force[v]);
-      share_force(state, surfaces, below, crack.lower[v], -t.force[v]);
+      const SurfaceNodes above = surfaces.nodes(surfaces.above(crack, v), crack.upper[v]);
+      const SurfaceNodes below = surfaces.nodes(surfaces.below(crack, v), crack.lower[v]);
+      if (above.empty() || below.empty()) continue;  // a side without mass bears nothing, and neither does the other then
+      share_force(state, surfaces, above, t.force[v]);
+      share_force(state, surfaces, below, -t.force[v]);
       if (!(stiffness > 0)) continue;
       // The nodes about a vertex bear the springs of a whole cell of crack (docs/theory/traction.md, time step).
       double cell = 0;
       for (int k = 0; k < 2; ++k) cell = std::fmax(cell, model.grid.cell[k]);
+      const double m_a = moved_mass(above), m_b = moved_mass(below);
       const double spring = stiffness * std::fmax(t.area[v], cell * model.tractions[c].thickness);
       state.traction_time_step = std::fmin(state.traction_time_step, std::sqrt(m_a * m_b / ((m_a + m_b) * spring)));
     }

@@ -31,12 +31,12 @@ std::optional<Vec<2>> plane_velocity(const State<2>& state, const Model<2>& mode
 }
 
 /// The same for one surface: of the fields of that side.
-std::optional<Vec<2>> surface_velocity(const CrackSurfaces& surfaces, const Vec<2>& from, const Vec<2>& x) {
-  std::optional<Vec<2>> v;
-  surfaces.for_nodes(from, x, [&](const NodeShare&, const Signature&, Pack p, double weight) {
-    if (!v) v.emplace();
-    for (int k = 0; k < 2; ++k) (*v)[k] += weight * p[k] / p[2];
-  });
+std::optional<Vec<2>> surface_velocity(const SurfaceNodes& nodes) {
+  if (nodes.empty()) return std::nullopt;
+  Vec<2> v{};
+  for (const SurfaceNode& on : nodes) {
+    for (int k = 0; k < 2; ++k) v[k] += on.weight * on.p[k] / on.p[2];
+  }
   return v;
 }
 
@@ -88,8 +88,8 @@ void move_cracks<2>(State<2>& state, const Model<2>& model, double dt) {
     motion[c].lower.resize(n);
     parallel_for(n, model.threads, [&](std::size_t v) {
       motion[c].plane[v] = plane_velocity(state, model, crack.plane[v]);
-      motion[c].upper[v] = surface_velocity(surfaces, surfaces.above(crack, v), crack.upper[v]);
-      motion[c].lower[v] = surface_velocity(surfaces, surfaces.below(crack, v), crack.lower[v]);
+      motion[c].upper[v] = surface_velocity(surfaces.nodes(surfaces.above(crack, v), crack.upper[v]));
+      motion[c].lower[v] = surface_velocity(surfaces.nodes(surfaces.below(crack, v), crack.lower[v]));
     });
     fill_gaps(motion[c].plane);
     for (std::size_t v = 0; v < n; ++v) {
