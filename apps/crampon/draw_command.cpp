@@ -35,8 +35,8 @@ DrawOptions picture_options(const DrawArguments& arguments, const std::string& t
   if (arguments.palette == "diverging") options.palette = Palette::diverging;
   if (arguments.symmetric) options.range = ColourRange::symmetric;
   if (arguments.range.size() == 2) {
-    options.lowest = number(arguments.range[0], "--range", unit.c_str());
-    options.highest = number(arguments.range[1], "--range", unit.c_str());
+    options.lowest = number(arguments.range[0], "--range", unit);
+    options.highest = number(arguments.range[1], "--range", unit);
     if (!(*options.lowest < *options.highest)) throw UsageError("--range: the first value must be below the second");
   }
   options.window = window_of(arguments, "m", "m");
