@@ -92,7 +92,7 @@ Vec<2> CrackSurfaces::seen_from(const Crack<2>& crack, std::size_t v, const Vec<
   const Vec<2> itself = off_mirrors(surface, crack.plane[v]);
   Signature between;
   const bool sees = signature(beside, itself, within_reach(beside, itself), between);
-  return sees && between == Signature{} ? itself : beside;
+  return sees && between.empty() ? itself : beside;
 }
 Vec<2> CrackSurfaces::above(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.upper[v], -1); }
 Vec<2> CrackSurfaces::below(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.lower[v], 1); }
