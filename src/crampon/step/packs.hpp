@@ -8,14 +8,13 @@
 namespace crampon {
 
 /// f(pack, stencil, targets, run): targets is null for packs whose pairs all go to their own node in the stencil's layer, else
-/// [lane][stencil node] says where each pair goes.
-template <int Dim, class Shape, class F>
-void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
+/// [lane][stencil node] says where each pair goes. Each stencil is computed into what place() refers to.
+template <int Dim, class Shape, class Place, class F>
+[[gnu::always_inline]] inline void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, Place&& place, F&& f) {
   const Block<Dim>& block = state.blocks.list[b];
   const BlockLayers<Dim>& layers = state.nodes.layers[b];
   const auto first_node = block.first_node();
   const std::uint32_t first_pack = state.blocks.runs[block.first_run].first_pack;
-  Stencil<Dim, Shape> stencil;
   for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
     const Run& run = state.blocks.runs[r];
     const HalfSize<Dim>& half_size = model.materials[run.material].half_size;
@@ -23,6 +22,7 @@ void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, 
     for (std::uint32_t k = run.first_pack; k < run.end_pack; ++k) {
       Pack x[Dim];
       state.particles.pack_positions(k, x);
+      Stencil<Dim, Shape>& stencil = place();
       stencil.compute(x, model.grid, first_node, half_size);
       if (layer > 0) stencil.move_to_layer(layer);
       const std::int32_t special = layers.special.empty() ? -1 : layers.special[k - first_pack];
@@ -31,6 +31,14 @@ void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, 
       f(k, stencil, targets, run);
     }
   }
+}
+
+/// The same, one stencil after another in one place.
+template <int Dim, class Shape, class F>
+void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
+  Stencil<Dim, Shape> stencil;
+  for_packs<Dim, Shape>(
+      state, model, b, [&]() -> Stencil<Dim, Shape>& { return stencil; }, f);
 }
 
 /// f(loaded, stencil, lane, targets) for the particles of a block that loads act on.
@@ -112,6 +120,19 @@ inline void for_stencil(const Stencil<Dim, Shape>& s, const PairTarget* targets,
 /// Velocity gradient of four particles, L[d * Dim + k] = sum_i v_i,d G_ip,k (N03 Eq. 36).
 template <int Dim, class Shape>
 inline void gradient(const Stencil<Dim, Shape>& s, const PairTarget* targets, const NodalVector<Dim>* velocity, Pack* L) {
+  using T = Tile<Dim, Shape>;
+  if (!targets && s.same_base) {
+    // Four particles share each node: lanes over particles.
+    for (int e = 0; e < Dim * Dim; ++e) L[e] = splat(0.);
+    const NodalVector<Dim>* lowest = velocity + s.base[0];
+    for (int n = 0; n < T::stencil; ++n) {
+      for (int d = 0; d < Dim; ++d) {
+        const Pack v = splat(lowest[T::steps[n]][d]);
+        for (int k = 0; k < Dim; ++k) L[d * Dim + k] = fused(s.G[n][k], v, L[d * Dim + k]);
+      }
+    }
+    return;
+  }
   auto* out = reinterpret_cast<double*>(L);
   for (int l = 0; l < lanes; ++l) {
     NodalVector<Dim> column[Dim];
@@ -145,6 +166,17 @@ inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* target
       transpose(a, b, c, d);
       minus_tau[k][0] = a, minus_tau[k][1] = b, minus_tau[k][2] = c, minus_tau[k][3] = d;
     }
+  }
+  if (!targets && s.same_base) {
+    NodalVector<Dim>* lowest = tiles + s.base[0];
+    for (int n = 0; n < T::stencil; ++n) {
+      NodalVector<Dim> f = lowest[T::steps[n]];
+      for (int l = 0; l < lanes; ++l) {
+        for (int k = 0; k < Dim; ++k) f = fused(leading<Dim>(minus_tau[k][l]), splat_as<NodalVector<Dim>>(s.G[n][k][l]), f);
+      }
+      lowest[T::steps[n]] = f;
+    }
+    return;
   }
   for (int l = 0; l < lanes; ++l) {
     NodalVector<Dim> t_k[Dim];

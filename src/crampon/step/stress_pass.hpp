@@ -16,11 +16,9 @@ void update_stress(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
   alignas(64) Pack L[batch_size * Dim * Dim];
   Waiting waiting[batch_size];
   int filled = 0;
-  const Run* current = nullptr;
   bool healthy = true;
   Particles<Dim>& particles = state.particles;
-  const auto flush = [&] {
-    if (filled == 0) return;
+  const auto flush = [&](const Run& run) {
     const std::size_t first = waiting[0].pack;
     const StressBatch<Dim> batch{filled,
                                  dt,
@@ -28,18 +26,18 @@ void update_stress(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
                                  &particles.stress[first * stress_size<Dim>],
                                  particles.history.data() + first * particles.history_size,
                                  particles.history_size};
-    if (!model.materials[current->material].law->update(model.stress_state, batch)) healthy = false;
+    if (!model.materials[run.material].law->update(model.stress_state, batch)) healthy = false;
     for (int e = 0; e < filled; ++e) then(waiting[e].pack, waiting[e].stencil, waiting[e].targets);
     filled = 0;
   };
-  for_packs<Dim, Shape>(state, model, b,
+  const auto place = [&]() -> Stencil<Dim, Shape>& { return waiting[filled].stencil; };
+  for_packs<Dim, Shape>(state, model, b, place,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
-                          if (&run != current) flush(), current = &run;
                           gradient<Dim, Shape>(stencil, targets, velocity, L + filled * Dim * Dim);
-                          waiting[filled++] = {stencil, targets, pack};
-                          if (filled == batch_size) flush();
+                          waiting[filled].targets = targets;
+                          waiting[filled].pack = pack;
+                          if (++filled == batch_size || pack + 1 == run.end_pack) flush(run);  // the next run has another law
                         });
-  flush();
   if (!healthy) state.scratch[b].health.inverted = true;
 }
 

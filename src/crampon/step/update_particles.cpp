@@ -12,7 +12,7 @@ namespace {
 
 /// {v', a} at a particle: sum S_ip {v'_i, a_i}.
 template <int Dim, class Shape>
-MotionRecord<Dim> interpolate(const Stencil<Dim, Shape>& s, const PairTarget* targets, int l, const MotionRecord<Dim>* motion) {
+inline MotionRecord<Dim> interpolate(const Stencil<Dim, Shape>& s, const PairTarget* targets, int l, const MotionRecord<Dim>* motion) {
   MotionRecord<Dim> sum;
   for (Pack& r : sum.r) r = splat(0.);
   for_stencil<Dim, Shape>(s, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {
@@ -108,16 +108,18 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
   constexpr int position_pack = 0, width = motion_packs<Dim>;
   Pack low = splat(1e300), high = splat(-1e300), fastest = splat(0.), check = splat(0.);
   const auto move = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
+    Pack lowest = low, highest = high, speed = fastest, bad = check;  // in registers
     for (int l = 0; l < lanes; ++l) {
       const std::size_t p = std::size_t{pack} * lanes + l;
       const MotionRecord<Dim> m = interpolate<Dim, Shape>(stencil, targets, l, motion);
       advance.apply(particles, p, m);
       const Pack x = particles.motion[p * width + position_pack];
-      low = lane_min(low, x);
-      high = lane_max(high, x);
-      fastest = lane_max(fastest, lane_max(m.r[0], -m.r[0]));
-      for (int r = 0; r < width; ++r) check += particles.motion[p * width + r] * 0.;  // NaN and infinity stay
+      lowest = lane_min(lowest, x);
+      highest = lane_max(highest, x);
+      speed = lane_max(speed, lane_max(m.r[0], -m.r[0]));
+      for (int r = 0; r < width; ++r) bad += particles.motion[p * width + r] * 0.;  // NaN and infinity stay
     }
+    low = lowest, high = highest, fastest = speed, check = bad;
   };
   if (stress_dt > 0) {
     update_stress<Dim, Shape>(state, model, b, stress_dt, gathered<Dim, Shape>(state, b, state.nodes.velocity), move);
