@@ -255,7 +255,7 @@ class BlockAssignment {
   bool fits_ = true;
 };
 
-/// Layers at the own nodes of a block: all that reach it from tiles around.
+/// Layers at the own nodes of a block: all that reach it from tiles around. A block that none reaches has no nodes in this step.
 template <int Dim, class Shape>
 void find_node_layers(State<Dim>& state, std::size_t b) {
   BlockLayers<Dim>& own = state.nodes.layers[b];
@@ -272,7 +272,6 @@ void find_node_layers(State<Dim>& state, std::size_t b) {
     }
     own.node_cracks.insert(own.node_cracks.end(), there.tile_cracks.begin(), there.tile_cracks.end());
   }
-  if (own.node.empty()) own.node.push_back(Layer{});
   std::sort(own.node.begin(), own.node.end());
   std::sort(own.node_cracks.begin(), own.node_cracks.end());
   own.node_cracks.erase(std::unique(own.node_cracks.begin(), own.node_cracks.end()), own.node_cracks.end());
@@ -301,7 +300,7 @@ bool reaches_shared_nodes(const State<Dim>& state, std::size_t b) {
   if (!block.has_particles()) return false;
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t c = block.neighbours[o];
-    if (c == no_block || (state.nodes.layers[c].node.size() == 1 && !state.nodes.layers[c].near_wall)) continue;
+    if (c == no_block || (state.nodes.layers[c].node.size() < 2 && !state.nodes.layers[c].near_wall)) continue;
     IndexVector<Dim> step = neighbour_step<Dim>(o);
     for (int k = 0; k < Dim; ++k) step[k] = -step[k];
     if (!Overlap<Dim, Shape>(step, block.touched).empty) return true;
@@ -325,11 +324,11 @@ void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::
   const std::size_t blocks = state.blocks.size();
   const bool cracked = !state.cracks.empty();
   const bool several = cracked || model.fields.size() > 1;
+  parallel_for(blocks, model.threads, [&](std::size_t b) {
+    find_node_layers<Dim, Shape>(state, b);
+    if (several) nodes.layers[b].near_wall = is_near_wall<Dim, Shape>(state, model, b);
+  });
   if (several) {
-    parallel_for(blocks, model.threads, [&](std::size_t b) {
-      find_node_layers<Dim, Shape>(state, b);
-      nodes.layers[b].near_wall = is_near_wall<Dim, Shape>(state, model, b);
-    });
     parallel_for(blocks, model.threads, [&](std::size_t b) { nodes.layers[b].sums_contact = reaches_shared_nodes<Dim, Shape>(state, b); });
   }
   nodes.tile_slots = nodes.node_slots = nodes.crossing_tile_slots = nodes.crossing_node_slots = 0;
