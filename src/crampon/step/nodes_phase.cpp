@@ -120,11 +120,12 @@ void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, d
     for (int k = 0; k < Dim; ++k) p[k] += dt * nodes.force[i][k];
   }
   adjust_contact(state, model, b, ContactTask::four, dt);
+  const bool strains_follow = model.stress_update == StressUpdate::usl;  // the others find velocities anew before they are read again
   for (std::size_t i = first; i < end; ++i) {
     const Pack p = nodes.momentum[i];
     const double inverse = p[Dim] > 0 ? 1 / p[Dim] : 0.;
     const NodalVector<Dim> v = leading<Dim>(p * splat(inverse)), a = nodes.force[i] * splat_as<NodalVector<Dim>>(inverse);
-    nodes.velocity[i] = v;
+    if (strains_follow || accounts) nodes.velocity[i] = v;
     if constexpr (Dim == 2) {
       nodes.motion[i].r[0] = Pack{v[0], v[1], a[0], a[1]};
     } else {
