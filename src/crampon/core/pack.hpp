@@ -87,9 +87,19 @@ inline void transpose(Pack& a, Pack& b, Pack& c, Pack& d) {
 template <int Dim>
 inline NodalVector<Dim> leading(Pack record) {
   if constexpr (Dim == 2) {
-    return Pair{record[0], record[1]};
+    return __builtin_shufflevector(record, record, 0, 1);
   } else {
-    return Pack{record[0], record[1], record[2], 0.};
+    return reinterpret_cast<Pack>(reinterpret_cast<Index4>(record) & Index4{-1, -1, -1, 0});  // one instruction; a shuffle makes four
+  }
+}
+
+/// A nodal vector as the first components of a record, zero behind them.
+template <int Dim>
+inline Pack as_record(NodalVector<Dim> v) {
+  if constexpr (Dim == 2) {
+    return __builtin_shufflevector(v, Pair{0., 0.}, 0, 1, 2, 3);
+  } else {
+    return v;
   }
 }
 

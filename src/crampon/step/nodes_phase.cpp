@@ -115,10 +115,7 @@ void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, d
     });
   }
   impose_forces(state, model, b, dt);
-  for (std::size_t i = first; i < end; ++i) {
-    Pack& p = nodes.momentum[i];
-    for (int k = 0; k < Dim; ++k) p[k] += dt * nodes.force[i][k];
-  }
+  for (std::size_t i = first; i < end; ++i) nodes.momentum[i] += as_record<Dim>(splat_as<NodalVector<Dim>>(dt) * nodes.force[i]);
   adjust_contact(state, model, b, ContactTask::four, dt);
   const bool strains_follow = model.stress_update == StressUpdate::usl;  // the others find velocities anew before they are read again
   for (std::size_t i = first; i < end; ++i) {

@@ -152,8 +152,15 @@ template <int Dim, class Shape>
 inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* targets, Pack volume, const Pack* stress,
                           NodalVector<Dim>* tiles) {
   using T = Tile<Dim, Shape>;
-  // minus_tau[k][l]: column k of -V0 tau of lane l.
+  // minus_tau[k][l]: column k of -V0 tau of lane l; what follows it is zero in 3D, and not looked at in 2D.
   Pack minus_tau[Dim][lanes];
+  const auto column_of = [&](int k, int l) {
+    if constexpr (Dim == 2) {
+      return leading<Dim>(minus_tau[k][l]);
+    } else {
+      return minus_tau[k][l];
+    }
+  };
   if constexpr (Dim == 2) {
     Pack xx = -(volume * stress[0]), xy = -(volume * stress[2]), yy = -(volume * stress[1]), again = xy;
     transpose(xx, xy, again, yy);
@@ -172,7 +179,7 @@ inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* target
     for (int n = 0; n < T::stencil; ++n) {
       NodalVector<Dim> f = lowest[T::steps[n]];
       for (int l = 0; l < lanes; ++l) {
-        for (int k = 0; k < Dim; ++k) f = fused(leading<Dim>(minus_tau[k][l]), splat_as<NodalVector<Dim>>(s.G[n][k][l]), f);
+        for (int k = 0; k < Dim; ++k) f = fused(column_of(k, l), splat_as<NodalVector<Dim>>(s.G[n][k][l]), f);
       }
       lowest[T::steps[n]] = f;
     }
@@ -180,7 +187,7 @@ inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* target
   }
   for (int l = 0; l < lanes; ++l) {
     NodalVector<Dim> t_k[Dim];
-    for (int k = 0; k < Dim; ++k) t_k[k] = leading<Dim>(minus_tau[k][l]);
+    for (int k = 0; k < Dim; ++k) t_k[k] = column_of(k, l);
     for (int n = 0; n < T::stencil; ++n) {
       if (targets) {
         const PairTarget t = targets[l * T::stencil + n];
