@@ -108,8 +108,41 @@ TEST(Conditions, BodyForceOnASymmetryPlane) {
   }
 }
 
+/// What is prescribed is looked at before it does harm, and named.
+TEST(Conditions, PrescribedValuesMustBeNumbers) {
+  const std::string late = "{ expression = \"sqrt(1e-6-t)\" }";
+  for (const auto& [input, name] : std::vector<std::pair<std::string, std::string>>{
+           {bar + pulled("grip", late), "grip"},
+           {bar + "[[wall]]\nname = \"punch\"\npoint = [0, 0]\nnormal = [0, 1]\nvelocity = [0, " + late + "]\n", "punch"},
+           {bar + "[[wall]]\nname = \"wheel\"\nkind = \"ball\"\ncentre = [0, 0]\nradius = 0.001\nspin = " + late + "\n", "wheel"},
+           {bar + "[[load]]\nname = \"p\"\nkind = \"total_force\"\nvalue = [" + late + ", 0]\n", "\"p\""},
+           {bar + "[method]\nbody_force = [0, " + late + "]\n", "body force"},
+           {bar + "[method]\ndamping = " + late + "\n", "damping"}}) {
+    const auto simulation = make(input);
+    try {
+      run(*simulation);
+      ADD_FAILURE() << name << " goes on with NaN";
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("not a number; correct the table or expression"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Conditions, BodiesInsideWallsAreTold) {
+  const auto notes = [](const std::string& law) {
+    return make(bar + "[[wall]]\nname = \"plate\"\npoint = [0, \"5 mm\"]\nnormal = [0, 1]\n[contact]\ndefault = \"" + law + "\"\n")
+        ->notes();
+  };
+  ASSERT_EQ(notes("frictionless").size(), 1u);
+  EXPECT_EQ(notes("frictionless")[0].rfind("16 particles begin more than a cell inside the wall \"plate\"", 0), 0u)
+      << notes("frictionless")[0];
+  EXPECT_TRUE(notes("none").empty());
+}
+
 TEST(Conditions, BadNumbersStopTheRun) {
-  const std::string load = "[[load]]\nname = \"p\"\nkind = \"total_force\"\nvalue = [{ expression = \"sqrt(1e-6-t)\", unit = \"N\" }, 0]\n";
+  const std::string load =
+      "[[load]]\nname = \"p\"\nkind = \"total_force\"\nvalue = [{ expression = \"if(t > 1e-6, 1e308, 0)\", unit = \"N\" }, 0]\n";  // an infinite acceleration
   for (const char* update : {"usl", "musl", "usf", "usavg"}) {
     for (const char* shape : {"linear", "gimp", "bspline"}) {
       const auto simulation = make(bar + load + "[method]\nstress_update = \"" + update + "\"\nshape_functions = \"" + shape + "\"\n");

@@ -8,6 +8,7 @@
 
 #include "crampon/core/error.hpp"
 #include "crampon/output/quantity.hpp"
+#include "crampon/run/build_contact.hpp"
 #include "crampon/run/build_model.hpp"
 #include "crampon/run/sample.hpp"
 #include "crampon/shape/bspline.hpp"
@@ -34,6 +35,7 @@ class Engine final : public Simulation {
     time_step_ = time_.step ? *time_.step : time_.courant * stable_time_step();
     place_probes(problem);
     initial_energy_ = energy();
+    notes_at_start_ = odd_starts(model_, state_);
   }
 
   void step(double longest) override {
@@ -191,7 +193,7 @@ class Engine final : public Simulation {
     return out;
   }
   std::vector<std::string> notes() const override {
-    std::vector<std::string> out;
+    std::vector<std::string> out = notes_at_start_;
     if (state_.most_crowded_nodes > 0)
       out.push_back(fmt::format("up to {} nodes saw more than two cracks at once", state_.most_crowded_nodes));
     if (state_.most_unsolved_nodes > 0) {
@@ -325,6 +327,7 @@ class Engine final : public Simulation {
   Model<Dim> model_;
   State<Dim> state_;
   double time_step_ = 0, end_ = 0, initial_energy_ = 0;
+  std::vector<std::string> notes_at_start_;
   bool watches_wave_speed_ = false;
   std::vector<Probe> probes_;
 };

@@ -75,6 +75,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     evaluate_conditions(state, model, dt);
     start_rigid_motion(state, model, dt);
     evaluate_loads(state, model, load_values, body_force, damping);
+    check_prescribed(state, model, load_values, body_force, damping);
     assign_velocity_fields<Dim, Shape>(state, model);  // Task 0
     record_initial_volume<Dim, Shape>(state, model);
   });

@@ -97,6 +97,28 @@ void report_fast(const State<Dim>& state, const Model<Dim>& model, std::size_t b
 
 }  // namespace
 
+template <int Dim>
+void check_prescribed(const State<Dim>& state, const Model<Dim>& model, const std::vector<Vec<Dim>>& load_values,
+                      const Vec<Dim>& body_force, double damping) {
+  const auto need = [&](bool is_number, const std::string& what, const std::string& name) {
+    if (is_number) return;
+    throw RunError(fmt::format("step {} (t = {:.6g} s): {}{} is not a number; correct the table or expression that gives it",
+                               state.step + 1, state.time, what, name.empty() ? "" : " \"" + name + "\""));
+  };
+  for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
+    const RigidPose<Dim>& end = state.rigid[b].end;
+    need(is_finite(end.centre) && is_finite(end.velocity) && is_finite(end.spin), "the velocity or spin of", model.rigid_bodies[b].name);
+  }
+  for (const BlockScratch<Dim>& scratch : state.scratch) {
+    for (const FixedComponent& f : scratch.fixed) {
+      need(!f.active || (std::isfinite(f.v_old) && std::isfinite(f.v_new)), "the velocity of", model.conditions[f.condition].name);
+    }
+  }
+  for (std::size_t l = 0; l < load_values.size(); ++l) need(is_finite(load_values[l]), "the value of", model.loads[l].name);
+  need(is_finite(body_force), "the body force", "");
+  need(std::isfinite(damping), "the damping", "");
+}
+
 template <int Dim, class Shape>
 void check_health(State<Dim>& state, const Model<Dim>& model, double dt) {
   for (std::size_t b = 0; b < state.blocks.size(); ++b) {
@@ -126,6 +148,11 @@ void check_health(State<Dim>& state, const Model<Dim>& model, double dt) {
   }
 }
 
+#define CRAMPON_INSTANTIATE(DIM) \
+  template void check_prescribed<DIM>(const State<DIM>&, const Model<DIM>&, const std::vector<Vec<DIM>>&, const Vec<DIM>&, double);
+CRAMPON_INSTANTIATE(2)
+CRAMPON_INSTANTIATE(3)
+#undef CRAMPON_INSTANTIATE
 #define CRAMPON_INSTANTIATE(DIM, SHAPE) template void check_health<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE

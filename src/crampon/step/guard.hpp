@@ -4,6 +4,12 @@
 
 namespace crampon {
 
+/// Looks at what the input prescribes for this step: motion of rigid bodies, velocities on nodes, loads, body force, damping. Throws RunError
+/// that names the first that is not a number.
+template <int Dim>
+void check_prescribed(const State<Dim>& state, const Model<Dim>& model, const std::vector<Vec<Dim>>& load_values,
+                      const Vec<Dim>& body_force, double damping);
+
 /// Looks at what the blocks reported. Throws RunError naming step, time, particle, its position, the nearest crack and the advice that
 /// usually helps; removes particles that left the grid when the input says so.
 template <int Dim, class Shape>
