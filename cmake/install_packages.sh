@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing for a purpose, and only those. Says nothing and touches no network when none is.
-#   cmake/install_packages.sh build [test] [lint] [tsan]
+#   cmake/install_packages.sh build [test] [lint] [tsan] [count]
 set -euo pipefail
 
 build=(g++ cmake ninja-build ccache pkg-config libtomlplusplus-dev libfmt-dev libcli11-dev libmuparser-dev libudunits2-dev
        libpng-dev zlib1g-dev libcairo2-dev nlohmann-json3-dev libeigen3-dev)
-test=(libgtest-dev librapidcheck-dev libboost-dev python3-minimal)
+test=(libgtest-dev librapidcheck-dev libboost-dev python3 python3-numpy)
 lint=(clang-format-14 clang-tidy-14 git)
 tsan=(clang-14 libomp-14-dev)
+count=(valgrind python3)
 
 wanted=()
 for purpose in "$@"; do
@@ -16,7 +17,8 @@ for purpose in "$@"; do
     test) wanted+=("${test[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
     tsan) wanted+=("${tsan[@]}") ;;
-    *) echo "install_packages.sh: unknown purpose '$purpose'; known: build test lint tsan" >&2; exit 2 ;;
+    count) wanted+=("${count[@]}") ;;
+    *) echo "install_packages.sh: unknown purpose '$purpose'; known: build test lint tsan count" >&2; exit 2 ;;
   esac
 done
 
