@@ -39,9 +39,13 @@ void print_record(const RunRecord& record) {
   double total = 0;
   for (const RunRecord::Phase& phase : record.phases) total += phase.seconds;
   if (total <= 0) return;
-  fmt::print("\n  time by phase\n");
-  for (const RunRecord::Phase& phase : record.phases)
-    fmt::print("    {:<28} {:>10}  {:4.1f} %\n", phase.name, duration_text(phase.seconds), 100 * phase.seconds / total);
+  // Wall time, by particles and steps: what a phase costs whatever the size of the run.
+  const double particle_steps = static_cast<double>(record.particles) * static_cast<double>(record.steps);
+  fmt::print("\n  time by phase {:>34} ns per particle-step\n", "");
+  for (const RunRecord::Phase& phase : record.phases) {
+    fmt::print("    {:<28} {:>10}  {:4.1f} %  {:>8}\n", phase.name, duration_text(phase.seconds), 100 * phase.seconds / total,
+               particle_steps > 0 ? fmt::format("{:.1f}", phase.seconds / particle_steps * 1e9) : "");
+  }
 }
 
 }  // namespace
