@@ -106,8 +106,10 @@ int main(int argc, char** argv) {
   try {
     for (int i = 1; i < argc; ++i) {
       const std::string word = argv[i];
-      if ((word == "--threads" || word == "--seconds") && i + 1 < argc) {
-        (word == "--threads" ? threads : seconds) = std::stod(argv[++i]);
+      if (word == "--threads" && i + 1 < argc) {
+        threads = std::stoi(argv[++i]);
+      } else if (word == "--seconds" && i + 1 < argc) {
+        seconds = std::stod(argv[++i]);
       } else {
         names.push_back(word);
       }
