@@ -173,9 +173,10 @@ class Model:
     def find_constraints(self):
         """Per node with mass: components held by a symmetry plane, and components with a prescribed velocity.
 
-        Of several conditions the last stated holds. fresh: prescribed now, but by no condition in the step before.
+        Of several conditions the last stated holds. fresh: prescribed now, but by no condition in the step before; old: what was
+        prescribed in the step before.
         """
-        self.held, self.fixed, self.fresh = {}, {}, set()
+        self.held, self.fixed, self.fresh, self.old = {}, {}, set(), {}
         slack = 1e-9 * self.grid.h
         now, before = self.conditions(self.t), self.conditions((self.k - 1) * self.dt) if self.k else []
         for node in {key[0] for key in self.m}:
@@ -189,7 +190,10 @@ class Model:
                 values = [b["value"][k] for b in here if b["value"][k] is not None]
                 if values:
                     self.fixed.setdefault(node, {})[k] = values[-1]
-                    if all(b["value"][k] is None for b in there):
+                    earlier = [b["value"][k] for b in there if b["value"][k] is not None]
+                    if earlier:
+                        self.old[node, k] = earlier[-1]
+                    else:
                         self.fresh.add((node, k))
 
     def zero_on_planes(self, field):
@@ -295,7 +299,8 @@ class Model:
             for k, value in self.fixed.get(key[0], {}).items():
                 if task == 2 and self.fixed_force == "incremental" and (key[0], k) in self.fresh:
                     continue
-                p[k] = self.m[key] * value(t, *self.grid.position(key[0]))
+                prescribed = self.old.get((key[0], k), value) if task == 2 else value
+                p[k] = self.m[key] * prescribed(t, *self.grid.position(key[0]))
 
     def impose_forces(self):
         self.zero_on_planes(self.f)

@@ -56,6 +56,15 @@ TEST(Conditions, OneMayHandOverToTheNext) {
   }
 }
 
+/// Where the velocity jumps at the handover, nodes are taken from the old one to the new by a force, as if one condition said both.
+TEST(Conditions, AHandoverMayJump) {
+  for (const char* force : {"incremental", "n13", "zero"}) {
+    const std::string method = std::string("[method]\nfixed_force = \"") + force + "\"\n";
+    expect_equal_runs(bar + method + pulled("all", "{ expression = \"if(t < 6.01e-6, 0, 0.5)\", unit = \"m/s\" }"),
+                      bar + method + pulled("first", "0", "end = \"6 us\"\n") + pulled("then", "0.5", "start = \"6 us\"\n"), 0);
+  }
+}
+
 TEST(Conditions, TheLastActiveOneHolds) {
   for (const char* force : {"incremental", "n13"}) {
     const std::string method = std::string("[method]\nfixed_force = \"") + force + "\"\n";

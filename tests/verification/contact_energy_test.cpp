@@ -37,13 +37,15 @@ struct ImpactCase {
   double friction;
   const char* shape_functions;
   double courant = 0.3;
+  const char* update = "usavg";
 };
 void PrintTo(const ImpactCase& c, std::ostream* out) {
-  *out << c.impact->name << ", friction " << c.friction << ", " << c.shape_functions << ", Courant number " << c.courant;
+  *out << c.impact->name << ", friction " << c.friction << ", " << c.shape_functions << ", Courant number " << c.courant << ", "
+       << c.update;
 }
 std::string name_of(const testing::TestParamInfo<ImpactCase>& info) {
-  return fmt::format("{}_{}_{}_courant_{:02.0f}", info.param.impact->name, info.param.friction > 0 ? "friction" : "frictionless",
-                     info.param.shape_functions, 100 * info.param.courant);
+  return fmt::format("{}_{}_{}_courant_{:02.0f}_{}", info.param.impact->name, info.param.friction > 0 ? "friction" : "frictionless",
+                     info.param.shape_functions, 100 * info.param.courant, info.param.update);
 }
 
 constexpr const char* soft = R"([[material]]
@@ -65,6 +67,7 @@ end = "22 ms"
 courant = {}
 [method]
 shape_functions = "{}"
+stress_update = "{}"
 [contact]
 scheme = "{}"
 {}[[body]]
@@ -72,7 +75,7 @@ name = "block"
 material = "soft"
 {}
 )",
-                                 h, c.courant, c.shape_functions, scheme, soft, c.impact->geometry);
+                                 h, c.courant, c.shape_functions, c.update, scheme, soft, c.impact->geometry);
   for (const char* points : c.impact->cracks) {
     text += fmt::format("[[crack]]\npoints = [{}]\ncontact = {}\n", points,
                         c.friction > 0 ? fmt::format("{{ law = \"coulomb\", friction = {} }}", c.friction) : "{ law = \"frictionless\" }");
@@ -117,7 +120,9 @@ TEST_P(ContactEnergy, NeitherGrowsNorIsLost) {
   const Outcome o = collide(GetParam(), "consistent"), literal = collide(GetParam(), "literal");
   // contact-consistency.md, "Tests that follow": above, USAVG's own oscillation; below, the inelastic onset of contact in cells of this
   // size, and what friction takes (measured: at most .7 % without friction and 4.7 % with it).
-  EXPECT_LE(o.highest, 1.002);
+  // MUSL's stress is half a step off, and energy with it: 1 to 2 % to and fro here.
+  const double swing = std::string(GetParam().update) == "musl" ? 0.025 : 0;
+  EXPECT_LE(o.highest, 1.002 + swing);
   EXPECT_GE(o.lowest, 0.94);
   // Round-off of 270 steps.
   EXPECT_LT(o.momentum_change, 1e-12 * o.momentum);
@@ -126,8 +131,8 @@ TEST_P(ContactEnergy, NeitherGrowsNorIsLost) {
   // Something has happened: faces that were closed at the start have opened.
   EXPECT_GT(o.widest, 0.1 * h);
   // What the history calls lost in contact is what the energy lacks. The balance of contact-consistency.md leaves small terms: measured .13 %.
-  EXPECT_NEAR(o.closure, 0, 0.005);
-  EXPECT_NEAR(o.contact_loss, 1 - o.end, 0.005);
+  EXPECT_NEAR(o.closure, 0, 0.005 + swing);
+  EXPECT_NEAR(o.contact_loss, 1 - o.end, 0.005 + swing);
   RecordProperty("closure", fmt::format("{:.2e}", o.closure));
   RecordProperty("energy_highest", fmt::format("{:.4f}", o.highest));
   RecordProperty("energy_end", fmt::format("{:.4f}", o.end));
@@ -145,6 +150,8 @@ std::vector<ImpactCase> cases() {
       }
     }
   }
+  // Where bodies meet before any force acts, round-off must not decide which nodes touch.
+  for (const Impact* impact : {&halves, &oblique, &crossing}) list.push_back({impact, 0, "linear", 0.3, "musl"});
   return list;
 }
 INSTANTIATE_TEST_SUITE_P(Impacts, ContactEnergy, testing::ValuesIn(cases()), name_of);

@@ -101,6 +101,38 @@ INSTANTIATE_TEST_SUITE_P(Fields, BondedMaterials,
                                          BondedCase{2, "linear", "usavg", "literal"}, BondedCase{3, "bspline", "musl", "consistent"},
                                          BondedCase{2, "gimp", "usf", "consistent"}, BondedCase{3, "linear", "usavg", "consistent"}));
 
+/// A law with memory where there is nothing to meet.
+TEST(OneField, NeedsNoMemoryOfContact) {
+  for (const char* law :
+       {"{ law = \"slip_weakening\", friction = 0.1, static_friction = 0.5, distance = 0.001 }",
+        "{ law = \"interface\", tension = 1e6, compression = 1e6, tangential = 1e6, normal_strength = 10, friction = 0.1 }"}) {
+    const auto simulation = make(four_bodies("", "", 0, ""), {"contact.fields=\"single\"", std::string("contact.default=") + law});
+    for (int k = 0; k < 3; ++k) simulation->step(HUGE_VAL);
+    EXPECT_EQ(simulation->steps_done(), 3);
+  }
+}
+
+void expect_refused(const std::string& text, const std::string& why) {
+  try {
+    make(text);
+    ADD_FAILURE() << "taken: " << why;
+  } catch (const InputError& error) {
+    ASSERT_FALSE(error.diagnostics().empty());
+    EXPECT_NE(error.diagnostics()[0].text().find(why), std::string::npos) << error.diagnostics()[0].text();
+  }
+}
+
+/// What contact could not do right is refused.
+TEST(ContactInput, IsRefusedWhereItCannotHold) {
+  const std::string floor = "[[wall]]\nname = \"floor\"\npoint = [0, 0.01]\nnormal = [0, 1]\n";
+  const std::string springs = "default = { law = \"interface\", tension = 1e6, compression = 1e6, tangential = 1e6 }";
+  expect_refused(four_bodies(springs, "", 0, "", floor), "a wall has no displacement");
+  const std::string finer =
+      "[[body]]\nname = \"fine\"\nmaterial = \"soft\"\nfield = \"left\"\nparticles_per_cell = 3\n"
+      "shape = { kind = \"rectangle\", low = [0.02, 0.02], high = [0.05, 0.05] }\n";
+  expect_refused(four_bodies("", "", 0, "", finer), "share a velocity field but not their particles_per_cell");
+}
+
 struct ContactCase {
   const char* contact;
   const char* shape_functions;

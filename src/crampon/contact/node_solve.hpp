@@ -67,6 +67,8 @@ struct ContactPair {
   Vec<Dim> w_settled;                          ///< relative velocity after Task 2, m/s
   ContactState previous = ContactState::open;  ///< Task-4 state of the last step
   ContactState state = ContactState::open;     ///< Task-4 state of this step
+  double met_at = 0;                           ///< relative speed that Task 2 has stopped, m/s
+  bool by_gap = false;                         ///< a wall: has no volume to go by
   double w_end = 0;                            ///< normal relative velocity right after the impulse of Task 4, m/s
   Vec<Dim> J;                                  ///< impulse on b in the present task, kg m/s
 

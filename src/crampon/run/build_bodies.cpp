@@ -50,10 +50,32 @@ class BodyBuilder {
     }
     for (const RigidInput& in : problem_.rigids) add_rigid(in);
     for (const WallInput& in : problem_.walls) add_wall(in);
+    if (out_.fields.size() > 1) refuse_unequal_bodies_in_a_field();
     return std::move(out_);
   }
 
  private:
+  /// Where a field meets others, the edge of its bodies follows from the size of their particles, and areas from their thickness.
+  void refuse_unequal_bodies_in_a_field() {
+    for (std::size_t b = 0; b < problem_.bodies.size(); ++b) {
+      const BodyInput& body = problem_.bodies[b];
+      const std::uint16_t field = field_of(body);
+      for (std::size_t a = 0; a < b; ++a) {
+        const BodyInput& first = problem_.bodies[a];
+        if (field_of(first) != field) continue;
+        if (out_.per_cell[a] != out_.per_cell[b] || (Dim == 2 && first.thickness != body.thickness)) {
+          errors_.push_back(
+              {body.location,
+               fmt::format("the bodies \"{}\" and \"{}\" share a velocity field but not their particles_per_cell and thickness", first.name,
+                           body.name),
+               "where they meet others, their edge is found from these",
+               "make them equal, or give one a field of its own ([[body]] field, or contact.fields = \"bodies\")"});
+        }
+        break;
+      }
+    }
+  }
+
   /// The velocity field of a body: its own word, or what contact.fields says.
   std::uint16_t field_of(const BodyInput& body) {
     std::string name;

@@ -100,6 +100,18 @@ void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state,
   model.field_laws.assign(n * n, problem.contact.between_fields);
   model.field_normals.assign(n * n, Vec<Dim>{});
   for (const ContactPairInput& in : problem.contact_pairs) add_pair(problem, in, model, errors);
+  for (std::size_t w = 0; w < problem.walls.size(); ++w) {
+    const std::uint16_t wall = model.rigid_bodies[problem.rigids.size() + w].field;
+    for (std::size_t f = 0; f < n; ++f) {
+      if (model.is_rigid(static_cast<int>(f)) || !std::holds_alternative<InterfaceContact>(model.law_between(static_cast<int>(f), wall)))
+        continue;
+      errors.push_back({problem.walls[w].location,
+                        fmt::format("the law between the wall \"{}\" and bodies is an interface", problem.walls[w].name),
+                        "a wall has no displacement to hang a spring on",
+                        "give the wall another law by a [[contact_pair]], or make it a [[rigid]] body of particles"});
+      break;
+    }
+  }
   for (std::size_t r = 0; r < problem.rigids.size(); ++r) {
     if (model.rigid_bodies[r].prescribes) add_condition(problem.rigids[r], r, model);
   }
@@ -126,8 +138,8 @@ std::vector<std::string> odd_starts(const Model<Dim>& model, const State<Dim>& s
       }
     }
     if (inside > 0)
-      out.push_back(
-          fmt::format("{} particles begin more than a cell inside the wall \"{}\", which holds nothing so deep", inside, body.name));
+      out.push_back(fmt::format("{} particles begin more than a cell inside the wall \"{}\": it lets their nodes move outwards only",
+                                inside, body.name));
   }
   return out;
 }

@@ -89,7 +89,8 @@ void close_pair(const ContactGroup<Dim>* groups, ContactPair<Dim>& pair, double 
   const PairSide<Dim> a = side_of(groups, pair.a), b = side_of(groups, pair.b);
   const Vec<Dim> w = b.v - a.v;
   if (holds_as_interface(pair)) {
-    ledger.interface_energy += interface_energy(pair, reduced_mass(a, b), w, dt);
+    const double share = pair.is_virtual() ? 0.5 : 1;  // there every face is met from both of its sides
+    ledger.interface_energy += share * interface_energy(pair, reduced_mass(a, b), w, dt);
     if (interface_load(pair, dt) >= 1) pair.history_gain = 1 - pair.history;
   }
   if (std::holds_alternative<SlipWeakeningContact>(*pair.law) && pair.state == ContactState::slip) {

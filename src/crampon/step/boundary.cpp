@@ -68,13 +68,15 @@ void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt) 
   for (std::size_t b = 0; b < state.blocks.size(); ++b) {
     auto& fixed = state.scratch[b].fixed;
     bool was_prescribed = false;
+    const FixedComponent* before = nullptr;  // by which it was prescribed in the last step: the last stated of those active
     for (std::size_t i = 0; i < fixed.size(); ++i) {
       FixedComponent& f = fixed[i];
       if (i == 0 || !same_component(fixed[i - 1], f)) {  // the first of those on this component: was any of them active?
-        was_prescribed = false;
+        before = nullptr;
         for (std::size_t j = i; j < fixed.size() && same_component(fixed[j], f); ++j) {
-          was_prescribed = was_prescribed || was_active[fixed[j].condition];
+          if (was_active[fixed[j].condition]) before = &fixed[j];
         }
+        was_prescribed = before != nullptr;
       }
       const Value& v = values[f.condition][f.component];
       f.active = v.active;
@@ -86,6 +88,10 @@ void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt) 
         const Vec<3> x = node_place(state, model, b, f.node);
         f.v_old = value(t_old, x);
         f.v_new = value(t_new, x);
+      }
+      // The velocity that the nodes have, where another condition gave it.
+      if (v.active && before && before->condition != f.condition && model.conditions[before->condition].rigid_body < 0) {
+        f.v_old = model.conditions[before->condition].components[before->component].value(t_old, node_place(state, model, b, f.node));
       }
     }
   }

@@ -96,6 +96,7 @@ bool FaceToFace<Dim>::see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& 
   const EdgeMap& edge = model_.fields[a.field].edge;
   const double d = edge.edge_distance(-dot(a.x, pair.n) / (a.m * plane.h), plane);
   pair.gap = d * plane.h + view.distance;
+  pair.by_gap = true;
   if (needs_area(*pair.law)) pair.area = area_on_rigid(a, b, view.distance / plane.h, pair.n, plane);
   if (needs_history(*pair.law)) pair.history = a.history / a.m;
   return true;

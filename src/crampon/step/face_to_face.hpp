@@ -24,11 +24,12 @@ template <int Dim>
 struct Face {
   GroupSet groups = 0;
   Signature cracks;
-  double m = 0;             ///< kg; of rigid bodies the volume
-  double volume = 0;        ///< m3; in 2D m2
-  Vec<Dim> x, X, g;         ///< sums of m (x - x_i), m (X - x_i), V_p G_ip
-  double history = 0;       ///< sum of m c
-  std::uint16_t field = 0;  ///< the one with most volume: its laws hold
+  double m = 0;                         ///< kg; of rigid bodies the volume
+  double volume = 0;                    ///< m3; in 2D m2
+  Vec<Dim> x, X, g;                     ///< sums of m (x - x_i), m (X - x_i), V_p G_ip
+  double history = 0;                   ///< sum of m c
+  std::uint16_t field = 0;              ///< the one with most volume: its laws hold
+  std::uint16_t lowest_field = 0xffff;  ///< by which contact remembers the face
   double field_volume = -1;
   bool rigid = false;
   int wall = -1;  ///< rigid body that it is, and a wall
@@ -41,6 +42,7 @@ struct Face {
     X += b.X;
     g += b.g;
     history += b.history;
+    lowest_field = std::min(lowest_field, b.lowest_field);
     if (b.field_volume > field_volume) field = b.field, field_volume = b.field_volume;
   }
 };

@@ -188,7 +188,7 @@ class NodeFinder {
       part.X = sums.original();
       part.g = sums.gradient();
       part.history = sums.history();
-      part.field = layer(field.layer).field;
+      part.field = part.lowest_field = layer(field.layer).field;
       Face<Dim>& face = faces_[static_cast<std::size_t>(field.group)];
       face.cracks = without_joined(layer(field.layer).cracks, model_);
       face.rigid = model_.is_rigid(part.field);
@@ -206,7 +206,7 @@ class NodeFinder {
       face.m = 1;
       face.rigid = true;
       face.wall = group.body;
-      face.field = model_.rigid_bodies[static_cast<std::size_t>(group.body)].field;
+      face.field = face.lowest_field = model_.rigid_bodies[static_cast<std::size_t>(group.body)].field;
     }
     place_ = {node.number, position_of(node.node), 0, &cloud_.at(node.node)};
     for (const Face<Dim>& face : faces_) place_.volume += face.volume;
@@ -292,8 +292,8 @@ class NodeFinder {
     if (!bonded && !b.rigid && std::fmin(a.m, b.m) < model_.contact.mass_screen * (a.m + b.m)) return;  // CONVENTIONS 37
     pair.a = a.groups;
     pair.b = b.groups;
-    pair.name.field_a = a.field;
-    pair.name.field_b = facing ? ContactName::all_others : b.field;
+    pair.name.field_a = a.lowest_field;
+    pair.name.field_b = facing ? ContactName::all_others : b.lowest_field;
     pair.name.others = a.cracks;
     if (!(b.wall >= 0 ? view_.see_wall(place_, a, b, pair) : view_.see_material(place_, a, b, other, pair))) return;
     pair.previous = previous_state(node.number, pair);

@@ -130,7 +130,7 @@ struct Model {
   }
   /// Does some contact law ask for areas, or for what particles remember of contact?
   bool needs_areas() const { return any_law(needs_area); }
-  bool remembers_contact() const { return any_law(needs_history); }
+  bool remembers_contact() const { return any_contact() && any_law(needs_history); }
   template <class F>
   bool any_law(F asks) const {
     return std::any_of(field_laws.begin(), field_laws.end(), asks) || std::any_of(crack_laws.begin(), crack_laws.end(), asks);
