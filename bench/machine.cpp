@@ -52,10 +52,10 @@ double multiply_add_rate(int threads) {
     for (int c = 0; c < chains; ++c) x[c] = splat(1 + 1e-3 * c);
     const Pack a = splat(1 - 1e-9), b = splat(1e-9);
     for (int r = 0; r < rounds; ++r) {
-      for (int c = 0; c < chains; ++c) x[c] = fused(x[c], a, b);
+      for (Pack& y : x) y = fused(y, a, b);
     }
     Pack sum = splat(0.);
-    for (int c = 0; c < chains; ++c) sum += x[c];
+    for (const Pack& y : x) sum += y;
     sink[static_cast<std::size_t>(t) * 8] = sum[0];
   });
   return 2. * lanes * chains * static_cast<double>(rounds) * threads / time;

@@ -3,7 +3,7 @@
 ///
 ///   step_cost [--threads N] [--seconds S] CASE.toml ...
 
-#include <time.h>
+#include <ctime>
 
 #include <algorithm>
 #include <chrono>

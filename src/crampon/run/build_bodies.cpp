@@ -174,10 +174,10 @@ class BodyBuilder {
     return at->second;
   }
 
-  std::uint32_t add_material(std::shared_ptr<const MaterialLaw> law, const BodyInput& body, const std::array<int, Dim>& per_cell,
+  std::uint32_t add_material(const std::shared_ptr<const MaterialLaw>& law, const BodyInput& body, const std::array<int, Dim>& per_cell,
                              std::uint16_t field) {
     Material<Dim> m;
-    m.law = std::move(law);
+    m.law = law;
     m.thickness = Dim == 2 ? body.thickness : 1;
     for (int k = 0; k < Dim; ++k) m.half_size[k] = 0.5 / per_cell[k];
     m.field = field;
