@@ -110,18 +110,19 @@ ResultsFolder ResultsFolder::open(const fs::path& path) {
 }
 
 template <class Frame>
-void ResultsFolder::write_frame(PvdSeries& series, const char* name, const Frame& frame, Precision precision) {
+void ResultsFolder::write_frame(PvdSeries& series, const char* name, Frame&& frame, Precision precision) {
   create_folder(path_ / name);
   const std::string file = fmt::format("{}/{}", name, frame_name(name, series.entries().size()));
-  write_vtp(path_ / file, frame, precision);
-  series.append(frame.time, file);
+  const double time = frame.time;
+  write_vtp(path_ / file, std::move(frame), precision);
+  series.append(time, file);
 }
 
-void ResultsFolder::write_particles(const PointFrame& frame, Precision precision) {
-  write_frame(particles_, "particles", frame, precision);
+void ResultsFolder::write_particles(PointFrame frame, Precision precision) {
+  write_frame(particles_, "particles", std::move(frame), precision);
 }
-void ResultsFolder::write_cracks(const CrackFrame& frame, Precision precision) { write_frame(cracks_, "cracks", frame, precision); }
-void ResultsFolder::write_grid(const PointFrame& frame, Precision precision) { write_frame(grid_, "grid", frame, precision); }
+void ResultsFolder::write_cracks(CrackFrame frame, Precision precision) { write_frame(cracks_, "cracks", std::move(frame), precision); }
+void ResultsFolder::write_grid(PointFrame frame, Precision precision) { write_frame(grid_, "grid", std::move(frame), precision); }
 void ResultsFolder::write_resolved_input(std::string_view text) { write_file(resolved_input(), text); }
 
 namespace {

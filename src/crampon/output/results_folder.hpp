@@ -48,9 +48,9 @@ class ResultsFolder {
   std::filesystem::path grid_series() const { return path_ / "grid.pvd"; }
 
   /// Writes one frame and adds it to its series. Throws std::runtime_error "path: reason"; earlier frames and lists stay whole.
-  void write_particles(const PointFrame& frame, Precision precision = Precision::single);
-  void write_cracks(const CrackFrame& frame, Precision precision = Precision::single);
-  void write_grid(const PointFrame& frame, Precision precision = Precision::single);
+  void write_particles(PointFrame frame, Precision precision = Precision::single);
+  void write_cracks(CrackFrame frame, Precision precision = Precision::single);
+  void write_grid(PointFrame frame, Precision precision = Precision::single);
   void write_resolved_input(std::string_view text);
 
   /// Frames on disk; empty when the series was not written.
@@ -63,7 +63,7 @@ class ResultsFolder {
  private:
   explicit ResultsFolder(std::filesystem::path path);
   template <class Frame>
-  void write_frame(PvdSeries& series, const char* name, const Frame& frame, Precision precision);
+  void write_frame(PvdSeries& series, const char* name, Frame&& frame, Precision precision);
 
   std::filesystem::path path_;
   PvdSeries particles_, cracks_, grid_;

@@ -31,7 +31,8 @@ struct PolyData {
 };
 
 /// The bytes of the file. Throws std::invalid_argument when an array's length does not fit the number of points or cells.
-std::string encode_poly_data(const PolyData& data);
+/// Frees each array once it is encoded.
+std::string encode_poly_data(PolyData data);
 
 /// Reads what encode_poly_data wrote. Throws std::runtime_error that says what is damaged.
 PolyData decode_poly_data(std::string_view bytes);

@@ -122,12 +122,13 @@ std::string open_tag(const VtkArray& array) {
 class Document {
  public:
   void line(std::string_view text) { (xml_ += text) += '\n'; }
-  void array(const VtkArray& a) {
+  void array(VtkArray& a) {
     line(fmt::format("{} format=\"appended\" offset=\"{}\">", open_tag(a), appended_.size()));
     if (!a.unit.empty())
       line(fmt::format("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>", escape(a.unit)));
     line("</DataArray>");
     append_compressed(appended_, raw_bytes(a));
+    std::vector<double>().swap(a.values);
   }
   void text_array(const VtkArray& a) {
     line(fmt::format("{} NumberOfTuples=\"{}\" format=\"ascii\">", open_tag(a), a.values.size()));
@@ -148,10 +149,12 @@ class Document {
     }
     line("</Array>");
   }
-  void cells(const char* section, const std::vector<double>& connectivity, const std::vector<double>& offsets) {
+  void cells(const char* section, std::vector<double>&& connectivity, std::vector<double>&& offsets) {
     line(fmt::format("<{}>", section));
-    array({"connectivity", "", 1, VtkType::int32, connectivity});
-    array({"offsets", "", 1, VtkType::int32, offsets});
+    VtkArray points{"connectivity", "", 1, VtkType::int32, std::move(connectivity)},
+        ends{"offsets", "", 1, VtkType::int32, std::move(offsets)};
+    array(points);
+    array(ends);
     line(fmt::format("</{}>", section));
   }
   std::string finish() {
@@ -176,7 +179,7 @@ void check_length(const VtkArray& a, std::size_t items, const char* what) {
 
 }  // namespace
 
-std::string encode_poly_data(const PolyData& data) {
+std::string encode_poly_data(PolyData data) {
   const std::size_t points = data.points.values.size() / 3;
   check_length(data.points, points, "points");
   const std::size_t vertices = data.vertex_offsets.size(), lines = data.line_offsets.size();
@@ -198,16 +201,16 @@ std::string encode_poly_data(const PolyData& data) {
                   "NumberOfPolys=\"0\">",
                   points, vertices, lines));
   doc.line("<PointData>");
-  for (const VtkArray& a : data.point_data) doc.array(a);
+  for (VtkArray& a : data.point_data) doc.array(a);
   doc.line("</PointData>");
   doc.line("<CellData>");
-  for (const VtkArray& a : data.cell_data) doc.array(a);
+  for (VtkArray& a : data.cell_data) doc.array(a);
   doc.line("</CellData>");
   doc.line("<Points>");
   doc.array(data.points);
   doc.line("</Points>");
-  doc.cells("Verts", data.vertex_connectivity, data.vertex_offsets);
-  doc.cells("Lines", data.line_connectivity, data.line_offsets);
+  doc.cells("Verts", std::move(data.vertex_connectivity), std::move(data.vertex_offsets));
+  doc.cells("Lines", std::move(data.line_connectivity), std::move(data.line_offsets));
   doc.line("</Piece>");
   doc.line("</PolyData>");
   return doc.finish();

@@ -27,8 +27,9 @@ bool is_label(const Field& field) {
          std::all_of(field.values.begin(), field.values.end(), [](double v) { return std::trunc(v) == v && std::abs(v) < 9e15; });
 }
 
-VtkArray array_of(const Field& field, Precision precision) {
-  return {field.name, field.unit, field.components, is_label(field) ? VtkType::int64 : real_type(precision), field.values};
+VtkArray array_of(Field&& field, Precision precision) {
+  const VtkType type = is_label(field) ? VtkType::int64 : real_type(precision);
+  return {std::move(field.name), std::move(field.unit), field.components, type, std::move(field.values)};
 }
 
 Field field_of(VtkArray&& array) { return {std::move(array.name), std::move(array.unit), array.components, std::move(array.values)}; }
@@ -105,20 +106,20 @@ CrackFrame crack_frame(PolyData&& data) {
 
 }  // namespace
 
-void write_vtp(const std::filesystem::path& path, const PointFrame& frame, Precision precision) {
+void write_vtp(const std::filesystem::path& path, PointFrame frame, Precision precision) {
   PolyData data;
   data.field_data = {real_scalar("TimeValue", "s", frame.time), whole_scalar("step", static_cast<double>(frame.step)),
                      whole_scalar("dimension", frame.dimension), real_scalar("cell", "m", frame.cell)};
-  data.points = {"Points", "m", 3, real_type(precision), frame.positions};
-  for (const Field& field : frame.fields) data.point_data.push_back(array_of(field, precision));
-  if (!frame.particle_size.empty()) data.point_data.push_back({size_name, "m", 3, real_type(precision), frame.particle_size});
   const std::size_t points = frame.positions.size() / 3;
+  data.points = {"Points", "m", 3, real_type(precision), std::move(frame.positions)};
+  for (Field& field : frame.fields) data.point_data.push_back(array_of(std::move(field), precision));
+  if (!frame.particle_size.empty()) data.point_data.push_back({size_name, "m", 3, real_type(precision), std::move(frame.particle_size)});
   data.vertex_connectivity = counted(points, 0);
   data.vertex_offsets = counted(points, 1);
-  write_file(path, encode_poly_data(data));
+  write_file(path, encode_poly_data(std::move(data)));
 }
 
-void write_vtp(const std::filesystem::path& path, const CrackFrame& frame, Precision precision) {
+void write_vtp(const std::filesystem::path& path, CrackFrame frame, Precision precision) {
   const std::size_t cracks = frame.names.size(), vertices = frame.plane.size() / 3;
   if (frame.begin.size() != cracks + 1 || frame.begin.front() != 0 || frame.begin.back() != static_cast<std::int64_t>(vertices) ||
       frame.upper.size() != frame.plane.size() || frame.lower.size() != frame.plane.size() ||
@@ -136,7 +137,7 @@ void write_vtp(const std::filesystem::path& path, const CrackFrame& frame, Preci
     for (int k = 0; k < 2; ++k) array.values.insert(array.values.end(), once.begin(), once.end());
     data.point_data.push_back(std::move(array));
   };
-  for (const Field& field : frame.fields) add_thrice(array_of(field, precision));
+  for (Field& field : frame.fields) add_thrice(array_of(std::move(field), precision));
   if (!frame.original.empty()) add_thrice({original_name, "m", 3, real_type(precision), frame.original});
   VtkArray crack{"crack", "", 1, VtkType::int32, {}}, surface{"surface", "", 1, VtkType::int32, {}};
   data.line_connectivity = counted(3 * vertices, 0);
@@ -148,7 +149,7 @@ void write_vtp(const std::filesystem::path& path, const CrackFrame& frame, Preci
     }
   }
   data.cell_data = {std::move(crack), std::move(surface)};
-  write_file(path, encode_poly_data(data));
+  write_file(path, encode_poly_data(std::move(data)));
 }
 
 PointFrame read_vtp(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <optional>
 
 #include <fmt/format.h>
@@ -58,15 +59,34 @@ class Recorder {
   }
   /// What a failed step left, as a frame only: its sums mean nothing.
   void record_wreck() { write_frame(); }
+  /// Until all frames are on disk. Throws what kept one from it.
+  void finish() {
+    const Clock::time_point start = Clock::now();
+    if (writing_.valid()) writing_.get();
+    seconds_ += seconds_between(start, Clock::now());
+  }
 
  private:
+  struct Frames {
+    std::optional<PointFrame> particles, grid;
+    std::optional<CrackFrame> cracks;
+  };
+  /// Takes a copy of what is to be written, which another thread compresses and writes: one frame at a time, so that memory is bounded.
+  /// Throws what went wrong with the frame before.
   void write_frame() {
-    const Precision precision = problem_.output.full_precision ? Precision::full : Precision::single;
-    folder_.write_particles(simulation_.particles(problem_.output.quantities), precision);
-    if (!problem_.cracks.empty()) folder_.write_cracks(simulation_.cracks(), precision);
+    if (writing_.valid()) writing_.get();
+    Frames frames;
+    frames.particles = simulation_.particles(problem_.output.quantities);
+    if (!problem_.cracks.empty()) frames.cracks = simulation_.cracks();
     // Before the first step nodes hold nothing.
-    if (problem_.output.grid && simulation_.steps_done() > 0) folder_.write_grid(simulation_.nodes(), precision);
+    if (problem_.output.grid && simulation_.steps_done() > 0) frames.grid = simulation_.nodes();
     last_frame_ = simulation_.steps_done();
+    writing_ = std::async(std::launch::async, [this, frames = std::move(frames)]() mutable {
+      const Precision precision = problem_.output.full_precision ? Precision::full : Precision::single;
+      folder_.write_particles(std::move(*frames.particles), precision);
+      if (frames.cracks) folder_.write_cracks(std::move(*frames.cracks), precision);
+      if (frames.grid) folder_.write_grid(std::move(*frames.grid), precision);
+    });
   }
   void write_events() {
     if (events_written_ == simulation_.event_count()) return;
@@ -87,7 +107,8 @@ class Recorder {
   FrameSchedule frames_;
   HistorySchedule rows_;
   std::int64_t last_frame_ = -1, last_row_ = -1;  // steps done when last written
-  double seconds_ = 0;
+  double seconds_ = 0;                            // that the run waited
+  std::future<void> writing_;                     // the frame on its way to disk; last, so that it is waited for before anything else goes
 };
 
 RunRecord describe_run(const Problem& problem, const Simulation& simulation, const RunOptions& options) {
@@ -230,6 +251,7 @@ RunOutcome run_problem(const Problem& problem, Simulation& simulation, const Run
       recorder.record_wreck();
     else
       recorder.record_state();
+    recorder.finish();
     update(record, simulation, recorder, stepping, cpu_at_start);
     write_run_record(recorder.folder().run_record(), record);
   } catch (const std::exception& error) {
