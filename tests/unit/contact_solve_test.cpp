@@ -279,8 +279,12 @@ TYPED_TEST(ContactSolve, AHeldContactLetsGoBeyondItsBound) {
   constexpr int Dim = TypeParam::value;
   Random random(7);
   for (int trial = 0; trial < 2000; ++trial) {
-    Node<Dim> node = random_pair<Dim>(random, CoulombContact{0.4});
+    const bool glued = random.pick(2) == 0;
+    ContactLawSpec law = CoulombContact{0.4};
+    if (glued) law = AdhesiveContact{0.4, 1e30, 1e30};  // glue, too, is of faces that are not too far apart
+    Node<Dim> node = random_pair<Dim>(random, law);
     ContactPair<Dim>& pair = node.pairs[0];
+    pair.area = h * h;
     pair.previous = random.pick(2) == 0 ? ContactState::slip : ContactState::stick;
     ContactRules rules;
     rules.dt = dt;

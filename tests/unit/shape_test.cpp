@@ -105,8 +105,8 @@ class ShapeFunctions : public testing::Test {
       IndexVector<dim> node = unflatten<dim>(at, T::side);
       for (int k = 0; k < dim; ++k) node[k] += first_node_[k] - T::offset;
       Weight<dim>& w = out[node];
-      w.S = stencil.S[n][lane];
-      for (int k = 0; k < dim; ++k) w.G[k] = stencil.G[n][k][lane] * grid_.cell[k];
+      w.S = stencil.weight(n, lane);
+      for (int k = 0; k < dim; ++k) w.G[k] = stencil.slope(n, k, lane) * grid_.cell[k];
     }
     EXPECT_EQ(static_cast<int>(out.size()), T::stencil) << "a node appears twice";
     return out;

@@ -6,13 +6,15 @@
 
 namespace crampon {
 
-/// Above this damage of the particles beside it an interface has failed.
-inline constexpr double interface_failed = 0.5;
+/// Above this damage of the particles beside it an interface has failed. Where it fails a node gives damage 1 to the particles about; that
+/// comes back as the mean of S over the face weighted by S, .55 to .67 for each direction along the face.
+template <int Dim>
+inline constexpr double interface_failed = Dim == 2 ? 0.5 : 0.25;
 
 /// Is the pair an interface that has not failed?
 template <int Dim>
 bool holds_as_interface(const ContactPair<Dim>& pair) {
-  return std::holds_alternative<InterfaceContact>(*pair.law) && pair.history < interface_failed;
+  return std::holds_alternative<InterfaceContact>(*pair.law) && pair.history < interface_failed<Dim>;
 }
 
 /// A spring of stiffness D A between two masses, of reduced mass m. Too stiff for the step (w dt > 2): held.

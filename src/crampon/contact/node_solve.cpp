@@ -28,10 +28,10 @@ Response<Dim> bonded_response(const ContactPair<Dim>& pair, double m, const Vec<
   return out;
 }
 
-/// Faces that have met and are glued stay together.
+/// Does glue between faces that have met hold?
 template <int Dim>
-bool stays_glued(const ContactRules& rules, const ContactPair<Dim>& pair, double m, double w_n, const Vec<Dim>& D_t) {
-  return pair.previous != ContactState::open && adhesion_holds(*pair.law, m * w_n, norm(D_t), pair.area, rules.dt);
+bool glue_holds(const ContactRules& rules, const ContactPair<Dim>& pair, double m, double w_n, const Vec<Dim>& D_t) {
+  return adhesion_holds(*pair.law, m * w_n, norm(D_t), pair.area, rules.dt);
 }
 
 /// The papers' rule, anew in each task (N03 section 2.2, N13 section 3).
@@ -53,7 +53,7 @@ Response<Dim> literal_response(const ContactRules& rules, ContactPair<Dim>& pair
   if (touching && w_n != 0) {
     out.push(pair.n, m, w_n, 0);
     out.rub(*pair.law, D_t, sliding_of(rules, pair, m));
-  } else if (stays_glued(rules, pair, m, w_n, D_t)) {
+  } else if (pair.previous != ContactState::open && glue_holds(rules, pair, m, w_n, D_t)) {
     out.push(pair.n, m, w_n, 0);
     out.stick(D_t);
   }
@@ -77,7 +77,7 @@ Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& p
     if (w_n < bound + slack) {
       out.push(pair.n, m, w_n, bound);
       out.rub(*pair.law, D_t, sliding_of(rules, pair, m));
-    } else if (stays_glued(rules, pair, m, w_n, D_t)) {
+    } else if (held && glue_holds(rules, pair, m, w_n, D_t)) {
       out.push(pair.n, m, w_n, 0);
       out.stick(D_t);
     }

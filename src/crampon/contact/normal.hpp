@@ -27,8 +27,8 @@ template <int Dim>
 std::optional<Vec<Dim>> linear_regression_normal(std::span<const LabelledPoint<Dim>> points, const Vec<Dim>& cell);
 
 /// Normal by logistic regression: minimises sum w_p (c_p - tanh(beta.X_p/2))^2 + lambda |beta_x|^2 (Nairn, Hammerquist & Smith, CMAME
-/// 362 (2020)). Empty with fewer than Dim + 1 points on a side or when the iteration fails: the caller then takes the linear regression,
-/// and after it a gradient.
+/// 362 (2020)). Empty with fewer than Dim + 1 points on a side or when the iteration fails: there a gradient is better than the linear
+/// regression (docs/theory/contact.md, normals).
 template <int Dim>
 std::optional<Vec<Dim>> logistic_regression_normal(std::span<const LabelledPoint<Dim>> points, const Vec<Dim>& cell);
 

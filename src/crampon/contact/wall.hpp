@@ -1,7 +1,10 @@
 #pragma once
 /// Rigid walls known by a formula: where their surface is, and which way is out.
 
+#include <cmath>
+
 #include "crampon/core/vector.hpp"
+#include "crampon/state/grid.hpp"
 
 namespace crampon {
 
@@ -27,5 +30,13 @@ struct Wall {
     return kind == Kind::ball ? WallView<Dim>{r - radius, out} : WallView<Dim>{radius - r, -out};
   }
 };
+
+/// Distance from a wall, m, beyond which it holds no node, however it lies in the cells.
+template <int Dim>
+double wall_reach(const Grid<Dim>& grid) {
+  double h = 0;
+  for (int k = 0; k < Dim; ++k) h = std::fmax(h, grid.cell[k]);
+  return h;
+}
 
 }  // namespace crampon

@@ -21,11 +21,9 @@ enum class FieldsOf { all, materials, bodies };
 
 /// contact-consistency.md, or contact detected anew in Tasks 2, 4 and 6 as in the papers.
 enum class ContactScheme { consistent, literal };
-/// Contact across cracks.
-enum class ContactDetection { displacement, volume };
-/// Contact between materials: where their edges are by the means of their particles' positions or by the particles themselves, how far they
-/// have come since the start, or N03's relative volume.
-enum class MaterialDetection { position, regression, displacement, volume };
+/// How far apart two faces are: by the means of their particles' positions or by the particles themselves, by how far they have come since the
+/// start, or by N03's relative volume.
+enum class ContactDetection { position, regression, displacement, volume };
 /// The normal between two materials (docs/theory/contact.md, normals).
 enum class ContactNormal { logistic_regression, linear_regression, largest_gradient, average_gradient, more_volume };
 /// All pairs of a node solved together, or one after another (N13).

@@ -32,6 +32,15 @@ using NodalVector = typename NodalVectorOf<Dim>::type;
 
 inline Pack splat(double a) { return Pack{a, a, a, a}; }
 
+/// Lane l of a Pack in memory, in all lanes: by a load. Compilers would shuffle registers, and one port alone shuffles.
+inline Pack splat_lane(const Pack& a, int l) {
+#if defined(__AVX2__)
+  return _mm256_broadcast_sd(reinterpret_cast<const double*>(&a) + l);
+#else
+  return splat(a[l]);
+#endif
+}
+
 template <class V>
 inline V splat_as(double a) {
   if constexpr (sizeof(V) == sizeof(Pair)) {
@@ -50,8 +59,14 @@ inline Pack fused(Pack a, Pack b, Pack c) { return a * b + c; }
 inline Pair fused(Pair a, Pair b, Pair c) { return a * b + c; }
 #endif
 
+// Compilers make two instructions of a comparison and a choice; these give the same bits, also for zeros and NaN.
+#if defined(__AVX2__)
+inline Pack lane_min(Pack a, Pack b) { return _mm256_min_pd(a, b); }
+inline Pack lane_max(Pack a, Pack b) { return _mm256_max_pd(a, b); }
+#else
 inline Pack lane_min(Pack a, Pack b) { return a < b ? a : b; }
 inline Pack lane_max(Pack a, Pack b) { return a > b ? a : b; }
+#endif
 
 inline Pack lane_floor(Pack a) {
 #if defined(__AVX2__)

@@ -11,6 +11,11 @@ namespace {
 constexpr Presence required = Presence::required;
 const Length up_to_three = Length::between(1, 3), two_or_three = Length::between(2, 3);
 
+const std::vector<std::pair<std::string, ContactDetection>> detections = {{"position", ContactDetection::position},
+                                                                          {"regression", ContactDetection::regression},
+                                                                          {"displacement", ContactDetection::displacement},
+                                                                          {"volume", ContactDetection::volume}};
+
 /// Motion of a rigid body varies in time alone.
 void check_motion(const std::vector<ValueFunction>& values, const char* key, Diagnostics& diagnostics) {
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -31,13 +36,13 @@ const Declaration<ContactInput>& contact_declaration() {
                   "each body")
           .one_of("default", &ContactInput::between_fields, contact_laws,
                   "law between bodies of different fields, rigid bodies and walls, unless a [[contact_pair]] says otherwise")
-          .choice("material_detection", &ContactInput::material_detection,
-                  {{"position", MaterialDetection::position},
-                   {"regression", MaterialDetection::regression},
-                   {"displacement", MaterialDetection::displacement},
-                   {"volume", MaterialDetection::volume}},
+          .choice("material_detection", &ContactInput::material_detection, detections,
                   "how the gap between bodies is found: from mean positions about a node, from the edges of particles, from displacements "
                   "since the start (for bodies that start in touch), or by relative volume (N03)")
+          .quantity(
+              "position_cutoff", &ContactInput::position_cutoff, "1", Bounds::between(0, 2),
+              "faces touch when the mean positions about a node are this many cells apart (0.8: linear, gimp; 0.9: bspline); left out: "
+              "what the shape functions and the size of particles make of touching faces")
           .choice("normal", &ContactInput::normal,
                   {{"logistic_regression", ContactNormal::logistic_regression},
                    {"linear_regression", ContactNormal::linear_regression},
@@ -52,9 +57,8 @@ const Declaration<ContactInput>& contact_declaration() {
                   "three and more bodies at a node: all pairs of them together, or each against all others as one (N13)")
           .choice("scheme", &ContactInput::scheme, {{"consistent", ContactScheme::consistent}, {"literal", ContactScheme::literal}},
                   "one state per node and pair carried through a step, or contact found anew each time as the papers write it")
-          .choice("detection", &ContactInput::detection,
-                  {{"displacement", ContactDetection::displacement}, {"volume", ContactDetection::volume}},
-                  "across cracks: by the distance of the two faces, or by the relative volume at the node (N03)")
+          .choice("detection", &ContactInput::detection, detections,
+                  "the same across cracks; displacements serve until faces have slid by about a cell")
           .choice("pairs", &ContactInput::pairs, {{"joint", ContactPairs::joint}, {"sequential", ContactPairs::sequential}},
                   "all pairs of fields at a node together, or one after another (N13)")
           .quantity("volume_separated", &ContactInput::volume_separated, "1", Bounds::positive(),

@@ -93,6 +93,8 @@ const Declaration<BodyInput>& body_declaration() {
           .text("material", &BodyInput::material, "name of a [[material]]", required)
           .text("field", &BodyInput::field,
                 "velocity field: bodies of one name here move as one and meet those of other names; left out: by contact.fields")
+          .flag("ignores_cracks", &BodyInput::ignores_cracks,
+                "cracks run beside it, not through it: it moves as one and meets the bodies on both of their sides")
           .one_of("shape", &BodyInput::shape, shapes, "the space to fill with particles; either shape or particles")
           .file("particles", &BodyInput::particles,
                 "CSV file with the columns x, y[, z], volume[, vx, vy[, vz]] in SI, used exactly as written")

@@ -58,7 +58,8 @@ struct MethodInput : Located {
 struct ContactInput : Located {
   FieldsOf fields = FieldsOf::all;
   ContactLawSpec between_fields;  ///< law between two fields unless a contact_pair says otherwise
-  MaterialDetection material_detection = MaterialDetection::position;
+  ContactDetection material_detection = ContactDetection::position;
+  std::optional<double> position_cutoff;  ///< cells; left out: by tables (contact/edge_map.hpp)
   ContactNormal normal = ContactNormal::logistic_regression;
   double rigid_bias = 10;
   SeveralMaterials several_materials = SeveralMaterials::pairwise;
@@ -67,7 +68,7 @@ struct ContactInput : Located {
   using Pairs = ContactPairs;
   using ReferenceVolume = crampon::ReferenceVolume;
   Scheme scheme = Scheme::consistent;
-  Detection detection = Detection::displacement;
+  Detection detection = Detection::displacement;  ///< across cracks
   Pairs pairs = Pairs::joint;
   double volume_separated = 0.9;  ///< V_sep of N03
   double volume_contact = 1.1;    ///< V_contact of N03
@@ -122,6 +123,7 @@ struct BodyInput : Located {
   std::vector<std::int64_t> particles_per_cell{2};  ///< per direction; one value or one per axis; also the uGIMP particle size
   bool match_mass = false;                          ///< scale particle masses so that the body's mass is the shape's
   double thickness = 1;                             ///< m, 2D only
+  bool ignores_cracks = false;                      ///< cracks do not part it
   std::vector<ValueFunction> velocity;              ///< initial, m/s, of position, one per dimension or empty
   std::vector<double> spin;                         ///< rad/s: one number in 2D, three in 3D, or empty
   std::vector<double> spin_centre;                  ///< m; default: the body's centre of mass

@@ -50,19 +50,27 @@ class BodyBuilder {
     }
     for (const RigidInput& in : problem_.rigids) add_rigid(in);
     for (const WallInput& in : problem_.walls) add_wall(in);
-    if (out_.fields.size() > 1) refuse_unequal_bodies_in_a_field();
+    refuse_unequal_bodies_in_a_field();
     return std::move(out_);
   }
 
  private:
   /// Where a field meets others, the edge of its bodies follows from the size of their particles, and areas from their thickness.
   void refuse_unequal_bodies_in_a_field() {
+    const bool sizes_matter = out_.fields.size() > 1 || problem_.contact.detection == ContactDetection::position;
     for (std::size_t b = 0; b < problem_.bodies.size(); ++b) {
       const BodyInput& body = problem_.bodies[b];
       const std::uint16_t field = field_of(body);
       for (std::size_t a = 0; a < b; ++a) {
         const BodyInput& first = problem_.bodies[a];
         if (field_of(first) != field) continue;
+        if (first.ignores_cracks != body.ignores_cracks) {
+          errors_.push_back(
+              {body.location,
+               fmt::format("of the bodies \"{}\" and \"{}\" one ignores cracks, but they share a velocity field", first.name, body.name),
+               "bodies of one field move as one", "give one a field of its own ([[body]] field, or contact.fields = \"bodies\")"});
+        }
+        if (!sizes_matter) continue;
         if (out_.per_cell[a] != out_.per_cell[b] || (Dim == 2 && first.thickness != body.thickness)) {
           errors_.push_back(
               {body.location,
@@ -85,7 +93,9 @@ class BodyBuilder {
     for (std::size_t f = 0; f < out_.fields.size(); ++f) {
       if (out_.fields[f].name == name) return static_cast<std::uint16_t>(f);
     }
-    return add_field(name, Dim == 2 ? body.thickness : 1., out_.per_cell.back());
+    const std::uint16_t field = add_field(name, Dim == 2 ? body.thickness : 1., out_.per_cell.back());
+    out_.fields.back().whole = body.ignores_cracks;
+    return field;
   }
 
   std::uint16_t add_field(const std::string& name, double thickness, const std::array<int, Dim>& per_cell) {
@@ -117,7 +127,7 @@ class BodyBuilder {
     body.velocity = velocity;
     body.spin = spin;
     body.field = add_field(name, thickness, per_cell);
-    out_.fields.back().rigid = true;
+    out_.fields.back().rigid = out_.fields.back().whole = true;
     out_.fields.back().body = static_cast<int>(out_.rigid_bodies.size());
     out_.rigid_bodies.push_back(std::move(body));
     return out_.rigid_bodies.back();

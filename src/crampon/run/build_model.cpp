@@ -361,7 +361,8 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   model.contact = {contact.scheme,           contact.detection,        contact.pairs,
                    contact.reference_volume, contact.volume_separated, contact.volume_contact,
                    contact.require_approach, contact.mass_screen,      contact.material_detection,
-                   contact.normal,           contact.rigid_bias,       contact.several_materials};
+                   contact.position_cutoff,  contact.normal,           contact.rigid_bias,
+                   contact.several_materials};
 
   BuiltBodies<Dim> bodies = build_bodies<Dim>(problem, model.grid, errors);
   model.materials = std::move(bodies.materials);

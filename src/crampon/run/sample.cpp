@@ -6,6 +6,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "crampon/core/parallel.hpp"
 #include "crampon/step/move_cracks.hpp"
 
 namespace crampon {
@@ -145,7 +146,8 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
   }
   std::vector<std::uint32_t> row(state.particles.size());
   for (std::size_t i = 0; i < slots.size(); ++i) row[slots[i]] = static_cast<std::uint32_t>(i);
-  for (const Run& run : state.blocks.runs) {
+  parallel_for(state.blocks.runs.size(), model.threads, [&](std::size_t r) {
+    const Run& run = state.blocks.runs[r];
     const Material<Dim>& material = model.materials[run.material];
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
       const PackReport report = material.law->report(model.stress_state, Dim, &state.particles.stress[k * stress_size<Dim>],
@@ -164,7 +166,7 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
         }
       }
     }
-  }
+  });
   return frame;
 }
 
@@ -222,16 +224,13 @@ PointFrame sample_nodes(const State<Dim>& state, const Model<Dim>& model) {
   Field field{"cracks_across", "1", 1, {}}, mass{"mass", "kg", 1, {}}, momentum{"momentum", "kg m/s", 3, {}}, force{"force", "N", 3, {}};
   for (std::size_t b = 0; b < state.blocks.size() && state.step > 0; ++b) {
     const BlockLayers<Dim>& layers = state.nodes.layers[b];
-    const auto first = state.blocks.list[b].first_node();
     for (std::size_t l = 0; l < layers.node.size(); ++l) {
       if (model.is_rigid(layers.node[l].field)) continue;
       for (int n = 0; n < block_nodes<Dim>; ++n) {
-        const std::size_t i = (layers.node_begin + l) * block_nodes<Dim> + n;
+        const std::size_t i = layers.slot(l, n);
         const Pack p = state.nodes.momentum[i];
         if (!(p[Dim] > 0)) continue;
-        IndexVector<Dim> node = unflatten<Dim>(n, block_side);
-        for (int k = 0; k < Dim; ++k) node[k] += first[k];
-        const Vec<Dim> x = model.grid.node_position(node);
+        const Vec<Dim> x = model.grid.node_position(state.blocks.list[b].node(n));
         field.values.push_back(layers.node[l].cracks.size());
         mass.values.push_back(p[Dim]);
         for (int k = 0; k < 3; ++k) {

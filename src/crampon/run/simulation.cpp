@@ -201,10 +201,10 @@ class Engine final : public Simulation {
           "contact did not converge at up to {} nodes of a step; smaller cells where cracks or several bodies meet usually help",
           state_.most_unsolved_nodes));
     }
-    if (time_.step && *time_.step > state_.traction_time_step) {
+    if (time_.step && *time_.step > state_.least_traction_time_step) {
       out.push_back(
           fmt::format("the time step of {:.3g} s is longer than the {:.3g} s that the stiffest traction law bears: the run may be unstable",
-                      *time_.step, state_.traction_time_step));
+                      *time_.step, state_.least_traction_time_step));
     }
     if (!state_.events.empty())
       out.push_back(fmt::format("traction laws failed at {} crack vertices; see events.csv", state_.events.size()));

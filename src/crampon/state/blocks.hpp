@@ -51,6 +51,12 @@ struct Block {
     for (int k = 0; k < Dim; ++k) n[k] = Grid<Dim>::first_node(coordinates[k]);
     return n;
   }
+  /// Index in the grid of a node of the block.
+  IndexVector<Dim> node(int local) const {
+    IndexVector<Dim> n = unflatten<Dim>(local, block_side);
+    for (int k = 0; k < Dim; ++k) n[k] += Grid<Dim>::first_node(coordinates[k]);
+    return n;
+  }
 };
 
 template <int Dim>

@@ -1,6 +1,7 @@
 #pragma once
 /// What lives on nodes and tiles during one step. Nothing here survives a step but the contact memory (contact/memory.hpp).
 
+#include <concepts>
 #include <cstdint>
 #include <vector>
 
@@ -64,8 +65,15 @@ struct BlockLayers {
   std::vector<std::int32_t> special;              ///< per pack of the block: index of its targets, or -1; empty: none special
   std::uint32_t tile_begin = 0, node_begin = 0;   ///< first tile / nodal slot
   std::uint32_t crossing_tile_begin = 0, crossing_node_begin = 0;
-  bool near_wall = false;     ///< own nodes within reach of an analytic wall
-  bool sums_contact = false;  ///< some node in reach has several layers or is near a wall
+  std::vector<std::uint8_t> shared;          ///< per own node: holds several fields or is near a wall; empty: none
+  std::vector<std::uint32_t> contact_packs;  ///< of the block's particles: with a part in shared nodes, ascending
+  bool near_wall = false;                    ///< own nodes within reach of an analytic wall
+  bool sums_contact = false;                 ///< some node in reach has several layers or is near a wall
+
+  /// Index into the nodal arrays of node n in layer l.
+  std::size_t slot(std::integral auto l, std::integral auto n) const {
+    return (node_begin + static_cast<std::size_t>(l)) * block_nodes<Dim> + static_cast<std::size_t>(n);
+  }
 };
 
 /// All nodal quantities of a step. Arrays are indexed [slot][local node]; a slot is a (block, layer).

@@ -30,11 +30,6 @@ Vec<Dim> momentum_of(const Nodes<Dim>& nodes, std::size_t i) {
   return p;
 }
 
-template <int Dim>
-std::size_t nodal_index(const State<Dim>& state, std::size_t b, int layer, int node) {
-  return (std::size_t{state.nodes.layers[b].node_begin} + layer) * block_nodes<Dim> + node;
-}
-
 /// Energy that contact takes from the particles in a step (docs/theory/contact.md, energy): with v- and v+ the velocities before Task 2
 /// and before Task 6, and da what the forces of Task 3 add, -1/2 (J4.v- - da.J2) - 1/2 (J4.v+ - da.J6) summed over the groups; half in
 /// Task 4, half in Task 6. Rigid bodies are groups like others here: what they give is work at the boundary.
@@ -116,20 +111,12 @@ void book_rigid(const ContactGroup<Dim>& group, const RigidPose<Dim>& pose, cons
   }
 }
 
-template <int Dim>
-Vec<Dim> place_of(const State<Dim>& state, const Model<Dim>& model, std::size_t b, int node) {
-  IndexVector<Dim> i = unflatten<Dim>(node, block_side);
-  const auto first = state.blocks.list[b].first_node();
-  for (int k = 0; k < Dim; ++k) i[k] += first[k];
-  return model.grid.node_position(i);
-}
-
 /// What particles are to add to their memory of contact waits on the nodes in the place of the contact sums, which have done their work:
 /// {gain, 1} where there is contact, else zeros.
 template <int Dim>
 void forget_gains(State<Dim>& state, std::size_t b) {
   const std::size_t count = state.nodes.layers[b].node.size() * block_nodes<Dim>;
-  for (std::size_t i = 0; i < count; ++i) state.nodes.contact[nodal_index(state, b, 0, 0) + i].r[0] = splat(0.);
+  for (std::size_t i = 0; i < count; ++i) state.nodes.contact[state.nodes.layers[b].slot(0, 0) + i].r[0] = splat(0.);
 }
 template <int Dim>
 void put_gain(State<Dim>& state, std::size_t b, const ContactNode<Dim>& node, const ContactPair<Dim>& pair) {
@@ -137,7 +124,7 @@ void put_gain(State<Dim>& state, std::size_t b, const ContactNode<Dim>& node, co
   const ContactNodes<Dim>& contacts = state.scratch[b].contact;
   for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
     if (pair.a & only(contacts.fields[f].group))
-      state.nodes.contact[nodal_index(state, b, contacts.fields[f].layer, node.node)].r[0] = Pack{pair.history_gain, 1., 0., 0.};
+      state.nodes.contact[state.nodes.layers[b].slot(contacts.fields[f].layer, node.node)].r[0] = Pack{pair.history_gain, 1., 0., 0.};
   }
 }
 
@@ -147,7 +134,7 @@ ContactRules rules_of(const auto& contact, ContactTask task, double dt) {
   rules.dt = dt;
   rules.literal = contact.scheme == ContactScheme::literal;
   rules.volume_for_cracks = contact.detection == ContactDetection::volume;
-  rules.volume_for_materials = contact.material_detection == MaterialDetection::volume;
+  rules.volume_for_materials = contact.material_detection == ContactDetection::volume;
   rules.volume_separated = contact.volume_separated;
   rules.volume_contact = contact.volume_contact;
   rules.require_approach = contact.require_approach;
@@ -176,9 +163,9 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
     const int pair_count = static_cast<int>(node.end_pair - node.first_pair);
     for (int g = 0; g < group_count; ++g) groups[g].p = groups[g].dp = {};
     for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
-      groups[contacts.fields[f].group].p += momentum_of(nodes, nodal_index(state, b, contacts.fields[f].layer, node.node));
+      groups[contacts.fields[f].group].p += momentum_of(nodes, state.nodes.layers[b].slot(contacts.fields[f].layer, node.node));
     }
-    const Vec<Dim> x_i = place_of(state, model, b, node.node);
+    const Vec<Dim> x_i = model.grid.node_position(state.blocks.list[b].node(node.node));
     for (int g = 0; g < group_count; ++g) {
       if (!groups[g].wall) continue;
       const RigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(groups[g].body)];
@@ -209,7 +196,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
     }
     for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
       // Every field of a group takes the group's velocity (bonded: N13's stick) and its share, by mass, of the group's impulse.
-      const std::size_t i = nodal_index(state, b, contacts.fields[f].layer, node.node);
+      const std::size_t i = state.nodes.layers[b].slot(contacts.fields[f].layer, node.node);
       const ContactGroup<Dim>& group = groups[contacts.fields[f].group];
       if (group.rigid) continue;
       const double fraction = nodes.momentum[i][Dim] / group.m;

@@ -79,10 +79,11 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     assign_velocity_fields<Dim, Shape>(state, model);  // Task 0
     record_initial_volume<Dim, Shape>(state, model);
   });
-  phases.blocks("project momentum", [&](B b) {  // Task 1
-    project_momentum<Dim, Shape>(state, model, b);
-    project_contact_sums<Dim, Shape>(state, model, b);
-  });
+  phases.blocks("project momentum", [&](B b) { project_momentum<Dim, Shape>(state, model, b); });  // Task 1
+  if (model.any_contact()) {
+    phases.blocks("find contact", [&](B b) { find_shared_nodes<Dim, Shape>(state, model, b); });
+    phases.blocks("find contact", [&](B b) { project_contact_sums<Dim, Shape>(state, model, b); });
+  }
   phases.blocks("contact and boundaries", [&](B b) { settle_start_momenta<Dim, Shape>(state, model, b, dt); });  // Task 2
   phases.blocks("stress and forces", [&](B b) {                                                                  // Tasks 2, 3
     update_stress_and_project_forces<Dim, Shape>(state, model, b, dt, stress_first ? stress_dt : 0., load_values, body_force);

@@ -134,7 +134,7 @@ void gather_layer(const State<Dim>& state, std::size_t block, int layer, const A
     const Overlap<Dim, Shape> overlap(step, box);
     if (overlap.empty) continue;
     const int there = layer_of<Dim>(state.nodes.layers[c].node, layers.tile[static_cast<std::size_t>(layer)]);
-    const Record* source = &nodes[(std::size_t{state.nodes.layers[c].node_begin} + there) * block_nodes<Dim>];
+    const Record* source = &nodes[state.nodes.layers[c].slot(there, 0)];
     overlap.rows([&](int local, int t, int count) { std::memcpy(static_cast<void*>(tile + t), source + local, sizeof(Record) * count); });
   }
 }

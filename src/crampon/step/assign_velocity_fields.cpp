@@ -101,7 +101,7 @@ class BlockAssignment {
       stencil.compute(x, model_.grid, first, model_.materials[run->material].half_size);
       layers_.special[k - first_pack] = count++;
       field_ = model_.materials[run->material].field;
-      sees_cracks_ = !model_.is_rigid(field_);
+      sees_cracks_ = !model_.is_whole(field_);
       own_layer_ = layers_.run_layer[static_cast<std::size_t>(run - &state_.blocks.runs[block_.first_run])];
       for (int l = 0; l < lanes; ++l) assign(stencil, x, l, state_.particles.is_padding(std::size_t{k} * lanes + l));
     }
@@ -182,7 +182,7 @@ class BlockAssignment {
       cross_stencil(view_.paths[c], facets.subspan(first, f - first), x_p, x_i, crossings);
       for (int n = 0; n < T::stencil; ++n) {
         // A corner of the stencil that the particle does not reach (uGIMP) is no pair.
-        if (!crossings[n].crosses() || stencil.S[n][l] == 0) continue;
+        if (!crossings[n].crosses() || stencil.weight(n, l) == 0) continue;
         fits_ = signature[n].append(c) && fits_;
         // Padding follows the particle it sits on, but is not a pair of its own.
         if (!padding) add_crossing(c, target[n].node, crossings[n]);
@@ -250,7 +250,7 @@ class BlockAssignment {
   std::vector<CrackId> cracks_;
   std::vector<std::vector<CrossingSums>> sums_;
   std::uint16_t field_ = 0;     ///< of the particles at hand
-  bool sees_cracks_ = true;     ///< ... rigid bodies have one field whatever cracks part the material beside them
+  bool sees_cracks_ = true;     ///< ... else it is one, whatever cracks part the material beside it
   std::uint8_t own_layer_ = 0;  ///< ... and the layer of their pairs that cross nothing
   bool fits_ = true;
 };
@@ -278,19 +278,15 @@ void find_node_layers(State<Dim>& state, std::size_t b) {
 }
 
 /// Are own nodes of a block within reach of an analytic wall?
-template <int Dim, class Shape>
-bool is_near_wall(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+template <int Dim>
+bool block_is_near_wall(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   Vec<Dim> centre, half;
   const auto first = state.blocks.list[b].first_node();
   for (int k = 0; k < Dim; ++k) {
     half[k] = 0.5 * (block_side - 1) * model.grid.cell[k];
     centre[k] = model.grid.node_coordinate(k, first[k]) + half[k];
   }
-  for (std::size_t body = 0; body < model.rigid_bodies.size(); ++body) {
-    const auto& wall = model.rigid_bodies[body].wall;
-    if (wall && wall->seen_from(centre, state.rigid[body].start.centre).distance < norm(half) + wall_reach(model.grid)) return true;
-  }
-  return false;
+  return is_near_wall(state, model, centre, norm(half));
 }
 
 /// Does a tile reach own nodes, of some block around it, that hold several layers or are near a wall?
@@ -326,7 +322,7 @@ void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::
   const bool several = cracked || model.fields.size() > 1;
   parallel_for(blocks, model.threads, [&](std::size_t b) {
     find_node_layers<Dim, Shape>(state, b);
-    if (several) nodes.layers[b].near_wall = is_near_wall<Dim, Shape>(state, model, b);
+    if (several) nodes.layers[b].near_wall = block_is_near_wall(state, model, b);
   });
   if (several) {
     parallel_for(blocks, model.threads, [&](std::size_t b) { nodes.layers[b].sums_contact = reaches_shared_nodes<Dim, Shape>(state, b); });

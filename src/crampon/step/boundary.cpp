@@ -8,10 +8,9 @@ namespace {
 
 template <int Dim>
 Vec<3> node_place(const State<Dim>& state, const Model<Dim>& model, std::size_t block, int node) {
-  const auto first = state.blocks.list[block].first_node();
-  const auto local = unflatten<Dim>(node, block_side);
+  const Vec<Dim> at = model.grid.node_position(state.blocks.list[block].node(node));
   Vec<3> x;
-  for (int k = 0; k < Dim; ++k) x[k] = model.grid.node_coordinate(k, first[k] + local[k]);
+  for (int k = 0; k < Dim; ++k) x[k] = at[k];
   return x;
 }
 
@@ -37,7 +36,7 @@ void for_fixed(State<Dim>& state, const Model<Dim>& model, std::size_t b, F f) {
       FixedComponent& c = scratch.fixed[i];
       if (!c.active) continue;
       if (is_overruled(scratch.fixed, i)) continue;
-      f(c, (layers.node_begin + l) * block_nodes<Dim> + c.node, l * count + i);
+      f(c, layers.slot(l, c.node), l * count + i);
     }
   }
 }
@@ -103,7 +102,6 @@ void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t 
   const auto by_rigid = [&](const FixedComponent& f) { return model.conditions[f.condition].rigid_body >= 0; };
   fixed.erase(std::remove_if(fixed.begin(), fixed.end(), by_rigid), fixed.end());
   const BlockLayers<Dim>& layers = state.nodes.layers[b];
-  const auto first = state.blocks.list[b].first_node();
   bool added = false;
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
     const MaterialField& field = model.fields[layers.node[l].field];
@@ -111,9 +109,8 @@ void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t 
     const RigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(field.body)];
     const std::uint16_t condition = model.rigid_bodies[static_cast<std::size_t>(field.body)].condition;
     for (int node = 0; node < block_nodes<Dim>; ++node) {
-      if (!(state.nodes.momentum[(layers.node_begin + l) * block_nodes<Dim> + static_cast<std::size_t>(node)][Dim] > 0)) continue;
-      IndexVector<Dim> index = unflatten<Dim>(node, block_side);
-      for (int k = 0; k < Dim; ++k) index[k] += first[k];
+      if (!(state.nodes.momentum[layers.slot(l, node)][Dim] > 0)) continue;
+      const IndexVector<Dim> index = state.blocks.list[b].node(node);
       const Vec<Dim> x = model.grid.node_position(index);
       const Vec<Dim> v_old = motion.start.velocity_at(x), v_new = motion.end.velocity_at(x);
       for (std::size_t q = 0; q < model.conditions[condition].components.size(); ++q) {
@@ -141,12 +138,9 @@ void remember_rigid_conditions(State<Dim>& state, const Model<Dim>& model) {
   state.prescribed_by_rigid.clear();
   if (model.rigid_bodies.empty()) return;
   for (std::size_t b = 0; b < state.blocks.size(); ++b) {
-    const auto first = state.blocks.list[b].first_node();
     for (const FixedComponent& f : state.scratch[b].fixed) {
       if (model.conditions[f.condition].rigid_body < 0) continue;
-      IndexVector<Dim> index = unflatten<Dim>(f.node, block_side);
-      for (int k = 0; k < Dim; ++k) index[k] += first[k];
-      state.prescribed_by_rigid.push_back(model.grid.node_number(index) * Dim + f.axis);
+      state.prescribed_by_rigid.push_back(model.grid.node_number(state.blocks.list[b].node(f.node)) * Dim + f.axis);
     }
   }
   std::sort(state.prescribed_by_rigid.begin(), state.prescribed_by_rigid.end());

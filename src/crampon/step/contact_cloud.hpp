@@ -34,6 +34,9 @@ class ContactCloud {
   /// Collects what reaches the nodes for which wanted[node] holds.
   template <class Shape>
   void collect(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<bool>& wanted);
+  void clear() {
+    for (auto& points : points_) points.clear();
+  }
   std::vector<CloudPoint<Dim>>& at(int node) { return points_[static_cast<std::size_t>(node)]; }
 
  private:

@@ -91,25 +91,32 @@ Vec<2> CrackSurfaces::seen_from(const Crack<2>& crack, std::size_t v, const Vec<
   if (!(dot(surface - crack.plane[v], out) > nudge_)) return beside;
   const Vec<2> itself = off_mirrors(surface, crack.plane[v]);
   Signature between;
-  const bool sees = signature(beside, itself, within_reach(beside, itself), between);
+  const bool sees = signatures(beside, {&itself, 1}, within_reach(beside, itself), &between) == 0;
   return sees && between.empty() ? itself : beside;
 }
 Vec<2> CrackSurfaces::above(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.upper[v], -1); }
 Vec<2> CrackSurfaces::below(const Crack<2>& crack, std::size_t v) const { return seen_from(crack, v, crack.lower[v], 1); }
 
 SurfaceNodes CrackSurfaces::nodes(const Vec<2>& from, const Vec<2>& x) const {
-  const bool near = within_reach(from, x);
   SurfaceNodes out;
-  double mass = 0, shape = 0;
+  std::array<Vec<2>, 9> places;
+  std::array<Signature, 9> sides;
+  std::size_t count = 0;
   for (const NodeShare& node : nodes_around(state_, model_, x)) {
     if (node.block == no_block || node.S == 0) continue;
+    out.list_[count].node = node;
+    places[count++] = node.x;
+  }
+  const unsigned too_many = signatures(from, {places.data(), count}, within_reach(from, x), sides.data());
+  double mass = 0, shape = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (too_many >> i & 1u) continue;
     SurfaceNode& on = out.list_[out.count_];
-    on = {node, {}, splat(0.), 0};
-    if (!signature(from, node.x, near, on.side)) continue;
-    for_layers(node, on.side, [&](std::size_t slot) { on.p += state_.nodes.momentum[slot]; });
+    on = {out.list_[i].node, sides[i], splat(0.), 0};
+    for_layers(on.node, on.side, [&](std::size_t slot) { on.p += state_.nodes.momentum[slot]; });
     if (!(on.p[2] > 0)) continue;
-    mass += node.S * on.p[2];
-    shape += node.S;
+    mass += on.node.S * on.p[2];
+    shape += on.node.S;
     ++out.count_;
   }
   const double light = 0.5 * mass / shape;
@@ -133,12 +140,20 @@ bool CrackSurfaces::within_reach(const Vec<2>& from, const Vec<2>& x) const {
   return true;
 }
 
-bool CrackSurfaces::signature(const Vec<2>& from, const Vec<2>& node, bool near, Signature& side) const {
+unsigned CrackSurfaces::signatures(const Vec<2>& from, std::span<const Vec<2>> places, bool near, Signature* sides) const {
+  unsigned too_many = 0;
+  std::array<Crossing, 9> crossings;
+  const auto book = [&](std::size_t c) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (crossings[i].crosses() && !sides[i].append(static_cast<CrackId>(c))) too_many |= 1u << i;
+    }
+  };
   if (!near) {
     for (std::size_t c = 0; c < paths_.size(); ++c) {
-      if (cross_path(paths_[c], from, node).crosses() && !side.append(static_cast<CrackId>(c))) return false;
+      for (std::size_t i = 0; i < places.size(); ++i) crossings[i] = cross_path(paths_[c], from, places[i]);
+      book(c);
     }
-    return true;
+    return too_many;
   }
   const Grid<2>& grid = model_.grid;
   const auto cell_of = [&](int k) { return static_cast<int>(std::floor((from[k] - grid.origin[k]) * grid.inverse_cell[k])); };
@@ -147,9 +162,10 @@ bool CrackSurfaces::signature(const Vec<2>& from, const Vec<2>& node, bool near,
     const CrackId c = facets[f].crack;
     const std::size_t first = f;
     while (f < facets.size() && facets[f].crack == c) ++f;
-    if (cross_path(paths_[c], facets.subspan(first, f - first), from, node).crosses() && !side.append(c)) return false;
+    cross_stencil(paths_[c], facets.subspan(first, f - first), from, places, {crossings.data(), places.size()});
+    book(c);
   }
-  return true;
+  return too_many;
 }
 
 }  // namespace crampon

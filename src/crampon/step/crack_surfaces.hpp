@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "crampon/crack/crossing.hpp"
 #include "crampon/crack/facet_bins.hpp"
@@ -68,8 +69,8 @@ class CrackSurfaces {
   void for_layers(const NodeShare& node, const Signature& side, F f) const {
     const BlockLayers<2>& layers = state_.nodes.layers[node.block];
     for (std::size_t l = 0; l < layers.node.size(); ++l) {
-      if (layers.node[l].cracks != side || model_.is_rigid(layers.node[l].field)) continue;
-      f((layers.node_begin + l) * block_nodes<2> + static_cast<std::size_t>(node.local));
+      if (layers.node[l].cracks != side || model_.is_whole(layers.node[l].field)) continue;
+      f(layers.slot(l, node.local));
     }
   }
 
@@ -79,8 +80,8 @@ class CrackSurfaces {
   /// x, which belongs to the vertex; where that lies on a mirror, x as far along the mirror and a little inside.
   Vec<2> off_mirrors(Vec<2> x, const Vec<2>& vertex) const;
   bool within_reach(const Vec<2>& from, const Vec<2>& x) const;
-  /// Cracks between `from` and a node; false when there are too many.
-  bool signature(const Vec<2>& from, const Vec<2>& node, bool near, Signature& side) const;
+  /// Cracks between `from` and each of up to nine places, into sides; bit i of what is returned: too many for place i.
+  unsigned signatures(const Vec<2>& from, std::span<const Vec<2>> places, bool near, Signature* sides) const;
 
   const State<2>& state_;
   const Model<2>& model_;

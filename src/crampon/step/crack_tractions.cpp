@@ -40,6 +40,7 @@ void start_tractions<2>(State<2>& state, const Model<2>& model) {
     t.force.assign(n, Vec<2>{});
     t.stored.assign(n, 0);
     t.area.assign(n, 0);
+    t.between.assign(n, false);
     // Segments between two vertices that bear the law, half to each.
     for (std::size_t v = 0; v + 1 < n; ++v) {
       if (!model.tractions[c].bears[v] || !model.tractions[c].bears[v + 1]) continue;
@@ -58,13 +59,14 @@ void spread_tractions<2>(State<2>& state, const Model<2>& model) {
   state.traction_time_step = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < state.cracks.size(); ++c) {
     const Crack<2>& crack = state.cracks.list[c];
-    const CrackTractionState<2>& t = state.tractions[c];
+    CrackTractionState<2>& t = state.tractions[c];
     const double stiffness = largest_stiffness(model.tractions[c].law);
     for (std::size_t v = 0; v < t.area.size(); ++v) {
       if (t.area[v] == 0 || t.history[v].failed != 0) continue;
       const SurfaceNodes above = surfaces.nodes(surfaces.above(crack, v), crack.upper[v]);
       const SurfaceNodes below = surfaces.nodes(surfaces.below(crack, v), crack.lower[v]);
-      if (above.empty() || below.empty()) continue;  // a side without mass bears nothing, and neither does the other then
+      t.between[v] = !above.empty() && !below.empty();
+      if (!t.between[v]) continue;  // a side without mass bears nothing, and neither does the other then
       share_force(state, surfaces, above, t.force[v]);
       share_force(state, surfaces, below, -t.force[v]);
       if (!(stiffness > 0)) continue;
@@ -76,6 +78,7 @@ void spread_tractions<2>(State<2>& state, const Model<2>& model) {
       state.traction_time_step = std::fmin(state.traction_time_step, std::sqrt(m_a * m_b / ((m_a + m_b) * spring)));
     }
   }
+  state.least_traction_time_step = std::fmin(state.least_traction_time_step, state.traction_time_step);
 }
 
 template <int Dim>
@@ -98,7 +101,7 @@ void update_tractions<2>(State<2>& state, const Model<2>& model, double dt) {
     for (std::size_t v = 0; v < t.area.size(); ++v) {
       if (t.area[v] == 0) continue;
       TractionHistory& history = t.history[v];
-      if (history.failed == 0) {
+      if (history.failed == 0 && t.between[v]) {
         const CrackOpening opening = opening_at(crack, v);
         const Vec<3> place{{crack.plane[v][0], crack.plane[v][1], 0}};
         const Traction now = update_traction(traction.law, {opening.opening, opening.sliding}, state.time + dt, place, history);

@@ -61,7 +61,7 @@ bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Di
   if (b.rigid) depth = model_.fields[b.field].edge.edge_distance(dot(b.x, pair.n) / (b.m * plane.h), plane);
   if (depth >= deepest_held) return false;
   pair.volume_ratio = relative_volume(place);
-  pair.gap = material_gap(place, a, b, pair, plane);
+  pair.gap = gap(model_.contact.material_detection, place, a, b, pair, pair.n);
   if (needs_area(*pair.law)) pair.area = b.rigid ? area_on_rigid(a, b, depth, pair.n, plane) : area_between(a, b, pair.n);
   look_back(place, a, b, pair);
   return true;
@@ -107,11 +107,8 @@ bool FaceToFace<Dim>::see_across(const MeetingPlace<Dim>& place, const CrackAtNo
                                  ContactPair<Dim>& pair) const {
   if (crack.side == 0 || crack.n == Vec<Dim>{}) return false;
   pair.n = crack.n;
-  // Zero for a closed, undeformed crack at any place and turn.
-  pair.gap = dot(apart(a, b), crack.n) - dot(apart_at_start(a, b), crack.N);
   pair.volume_ratio = relative_volume(place);
-  if (model_.contact.detection == ContactDetection::volume && model_.contact.scheme == ContactScheme::consistent)
-    pair.gap = gap_by_volume(pair.volume_ratio);
+  pair.gap = gap(model_.contact.detection, place, a, b, pair, crack.N);
   if (needs_area(*pair.law)) pair.area = area_between(a, b, pair.n);
   look_back(place, a, b, pair);
   return true;
@@ -153,8 +150,8 @@ template <int Dim>
 double FaceToFace<Dim>::relative_volume(const MeetingPlace<Dim>& place) const {
   double reference = cell_volume();
   if (model_.contact.reference_volume == ReferenceVolume::initial && !state_.initial_volume.empty()) {
-    const double initial = state_.initial_volume[static_cast<std::size_t>(place.number)];
-    if (initial > 0) reference = initial;
+    const auto initial = state_.initial_volume.find(place.number);
+    if (initial != state_.initial_volume.end() && initial->second > 0) reference = initial->second;
   }
   return place.volume / reference;
 }
@@ -166,19 +163,22 @@ double FaceToFace<Dim>::gap_by_volume(double volume_ratio) const {
 }
 
 template <int Dim>
-double FaceToFace<Dim>::material_gap(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const ContactPair<Dim>& pair,
-                                     const PlaneInCells& plane) const {
-  switch (model_.contact.material_detection) {
-    case MaterialDetection::position:
+double FaceToFace<Dim>::gap(ContactDetection detection, const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b,
+                            const ContactPair<Dim>& pair, const Vec<Dim>& original_normal) const {
+  switch (detection) {
+    case ContactDetection::position: {
+      const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
+      if (model_.contact.position_cutoff) return dot(apart(a, b), pair.n) - *model_.contact.position_cutoff * plane.h;
       return position_gap(dot(a.x, pair.n) / a.m, model_.fields[a.field].edge, dot(b.x, pair.n) / b.m, model_.fields[b.field].edge, plane);
-    case MaterialDetection::regression: {
+    }
+    case ContactDetection::regression: {
       RegressionGap<Dim> gap(pair.n);
       for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) { gap.add(point.x, point.half_edges(), side); });
       return gap.gap();
     }
-    case MaterialDetection::displacement:
-      return dot(apart(a, b) - apart_at_start(a, b), pair.n);
-    case MaterialDetection::volume:
+    case ContactDetection::displacement:  // zero for closed, undeformed faces at any place and turn
+      return dot(apart(a, b), pair.n) - dot(apart_at_start(a, b), original_normal);
+    case ContactDetection::volume:
       break;
   }
   return gap_by_volume(pair.volume_ratio);
@@ -188,7 +188,7 @@ template <int Dim>
 Vec<Dim> FaceToFace<Dim>::found_normal(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b) {
   GradientNormal gradient = GradientNormal::largest_gradient;
   const VolumeGradient<Dim> of_a{a.g, a.volume, a.rigid}, of_b{b.g, b.volume, b.rigid};
-  // A rigid body shows its own surface better than any regression over both (CONVENTIONS 33).
+  // A rigid body shows its own surface better than any regression over both, as in gradient_normal (CONVENTIONS 33).
   if (b.rigid && norm(b.g) >= norm(a.g) / model_.contact.rigid_bias) return normalized(-b.g);
   switch (model_.contact.normal) {
     case ContactNormal::logistic_regression:

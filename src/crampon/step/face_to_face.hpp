@@ -32,7 +32,8 @@ struct Face {
   std::uint16_t lowest_field = 0xffff;  ///< by which contact remembers the face
   double field_volume = -1;
   bool rigid = false;
-  int wall = -1;  ///< rigid body that it is, and a wall
+  bool whole = false;  ///< meets faces on all sides of cracks
+  int wall = -1;       ///< rigid body that it is, and a wall
 
   void add(const Face& b) {
     groups |= b.groups;
@@ -82,8 +83,8 @@ class FaceToFace {
   double area_on_rigid(const Face<Dim>& a, const Face<Dim>& b, double depth, const Vec<Dim>& n, const PlaneInCells& plane) const;
   double relative_volume(const MeetingPlace<Dim>& place) const;
   double gap_by_volume(double volume_ratio) const;
-  double material_gap(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const ContactPair<Dim>& pair,
-                      const PlaneInCells& plane) const;
+  double gap(ContactDetection detection, const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b,
+             const ContactPair<Dim>& pair, const Vec<Dim>& original_normal) const;
   Vec<Dim> found_normal(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b);
 
   const State<Dim>& state_;

@@ -12,11 +12,6 @@ namespace crampon {
 
 namespace {
 
-template <int Dim>
-std::size_t nodal_index(const State<Dim>& state, std::size_t b, int layer, int node) {
-  return (std::size_t{state.nodes.layers[b].node_begin} + layer) * block_nodes<Dim> + node;
-}
-
 /// Are fields on both sides one group? One after another, bonded pairs are pairs like others (N13, CONVENTIONS 14).
 template <int Dim>
 bool joins(const Model<Dim>& model, const ContactLawSpec& law) {
@@ -51,35 +46,42 @@ template <int Dim, class Shape>
 class NodeFinder {
  public:
   NodeFinder(State<Dim>& state, const Model<Dim>& model, std::size_t b)
-      : state_(state), model_(model), b_(b), layers_(state.nodes.layers[b]), out_(state.scratch[b].contact), view_(state, model) {}
+      : state_(state),
+        model_(model),
+        b_(b),
+        layers_(state.nodes.layers[b]),
+        out_(state.scratch[b].contact),
+        cloud_(empty_cloud()),
+        view_(state, model) {}
 
   void run() {
     for (int node = 0; node < block_nodes<Dim>; ++node) collect_fields(node);
     const auto& c = model_.contact;
     const bool by_regression = c.normal == ContactNormal::logistic_regression || c.normal == ContactNormal::linear_regression;
-    const bool among_materials = model_.fields.size() > 1 && (by_regression || c.material_detection == MaterialDetection::regression);
-    const bool interfaces = model_.any_law([](const ContactLawSpec& law) { return std::holds_alternative<InterfaceContact>(law); });
-    if (among_materials || interfaces) collect_cloud(interfaces);
+    const bool among_materials = model_.fields.size() > 1 && (by_regression || c.material_detection == ContactDetection::regression);
+    const bool across_cracks = c.detection == ContactDetection::regression ||
+                               model_.any_law([](const ContactLawSpec& law) { return std::holds_alternative<InterfaceContact>(law); });
+    if (among_materials || across_cracks) collect_cloud(across_cracks);
     for (ContactNode<Dim>& node : out_.nodes) {
       read_faces(node);
       collect_cracks(node);
       node.first_pair = static_cast<std::uint32_t>(out_.pairs.size());
       pair_materials(node);
       pair_sides(node);
-      pair_rigid(node);
+      pair_whole(node);
       node.end_pair = static_cast<std::uint32_t>(out_.pairs.size());
     }
   }
 
  private:
-  IndexVector<Dim> index_of(int node) const {
-    IndexVector<Dim> i = unflatten<Dim>(node, block_side);
-    const auto first = state_.blocks.list[b_].first_node();
-    for (int k = 0; k < Dim; ++k) i[k] += first[k];
-    return i;
+  /// A thread's own, which keeps its memory from block to block.
+  static ContactCloud<Dim>& empty_cloud() {
+    static thread_local ContactCloud<Dim> cloud;
+    cloud.clear();
+    return cloud;
   }
-  std::int64_t number_of(int node) const { return model_.grid.node_number(index_of(node)); }
-  Vec<Dim> position_of(int node) const { return model_.grid.node_position(index_of(node)); }
+  std::int64_t number_of(int node) const { return model_.grid.node_number(state_.blocks.list[b_].node(node)); }
+  Vec<Dim> position_of(int node) const { return model_.grid.node_position(state_.blocks.list[b_].node(node)); }
   const Layer& layer(int l) const { return layers_.node[static_cast<std::size_t>(l)]; }
   bool meets_others(const MaterialField& field) const {
     return !field.rigid || !model_.rigid_bodies[static_cast<std::size_t>(field.body)].prescribes;
@@ -87,11 +89,11 @@ class NodeFinder {
 
   /// Fields with mass and the groups that they form.
   void collect_fields(int node) {
+    if (layers_.shared[static_cast<std::size_t>(node)] == 0) return;
     std::vector<int>& present = present_;
     present.clear();
     for (std::size_t l = 0; l < layers_.node.size(); ++l) {
-      if (state_.nodes.momentum[nodal_index(state_, b_, static_cast<int>(l), node)][Dim] > 0 &&
-          meets_others(model_.fields[layers_.node[l].field]))
+      if (state_.nodes.momentum[layers_.slot(l, node)][Dim] > 0 && meets_others(model_.fields[layers_.node[l].field]))
         present.push_back(static_cast<int>(l));
     }
     const std::size_t walls = present.empty() ? 0 : walls_about(node);
@@ -143,7 +145,7 @@ class NodeFinder {
       for (std::size_t j = 0; j < i; ++j) {
         const std::uint16_t a = layer(present[j]).field, b = layer(present[i]).field;
         if (reduced[i] != reduced[j] || chain[i] == chain[j]) continue;
-        const bool bonded = joins(model_, model_.law_between(a, b)) && !model_.is_rigid(a) && !model_.is_rigid(b);
+        const bool bonded = joins(model_, model_.law_between(a, b)) && !model_.is_whole(a) && !model_.is_whole(b);
         if (a != b && !bonded) continue;
         const int low = std::min(chain[i], chain[j]), high = std::max(chain[i], chain[j]);
         for (std::size_t k = 0; k <= i; ++k) {
@@ -178,7 +180,7 @@ class NodeFinder {
     faces_.assign(node.end_group - node.first_group, {});
     for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
       const ContactField& field = out_.fields[f];
-      const std::size_t i = nodal_index(state_, b_, field.layer, node.node);
+      const std::size_t i = layers_.slot(field.layer, node.node);
       const ContactSums<Dim>& sums = state_.nodes.contact[i];
       Face<Dim> part;
       part.groups = only(field.group);
@@ -192,6 +194,7 @@ class NodeFinder {
       Face<Dim>& face = faces_[static_cast<std::size_t>(field.group)];
       face.cracks = without_joined(layer(field.layer).cracks, model_);
       face.rigid = model_.is_rigid(part.field);
+      face.whole = model_.is_whole(part.field);
       face.add(part);
       ContactGroup<Dim>& group = out_.groups[node.first_group + static_cast<std::uint32_t>(field.group)];
       group.m += part.m;
@@ -204,7 +207,7 @@ class NodeFinder {
       Face<Dim>& face = faces_[g];
       face.groups = only(static_cast<int>(g));
       face.m = 1;
-      face.rigid = true;
+      face.rigid = face.whole = true;
       face.wall = group.body;
       face.field = face.lowest_field = model_.rigid_bodies[static_cast<std::size_t>(group.body)].field;
     }
@@ -241,15 +244,15 @@ class NodeFinder {
   void pair_materials(const ContactNode<Dim>& node) {
     const std::size_t begin = out_.pairs.size();
     for (std::size_t a = 0; a < faces_.size(); ++a) {
-      if (faces_[a].rigid) continue;
+      if (faces_[a].whole) continue;
       int others = 0;
-      for (const Face<Dim>& f : faces_) others += !f.rigid && f.cracks == faces_[a].cracks;
+      for (const Face<Dim>& f : faces_) others += !f.whole && f.cracks == faces_[a].cracks;
       if (others > 2 && model_.contact.several_materials == SeveralMaterials::virtual_material) {
         pair_with_virtual(node, a);
         continue;
       }
       for (std::size_t b = a + 1; b < faces_.size(); ++b) {
-        if (!faces_[b].rigid && faces_[b].cracks == faces_[a].cracks) pair_faces(node, faces_[a], faces_[b]);
+        if (!faces_[b].whole && faces_[b].cracks == faces_[a].cracks) pair_faces(node, faces_[a], faces_[b]);
       }
     }
     // N13's virtual materials first, by crack field; solve_contact relies on it.
@@ -265,19 +268,22 @@ class NodeFinder {
     rest.cracks = faces_[a].cracks;
     const Face<Dim>* most = nullptr;
     for (std::size_t b = 0; b < faces_.size(); ++b) {
-      if (b == a || faces_[b].rigid || faces_[b].cracks != rest.cracks) continue;
+      if (b == a || faces_[b].whole || faces_[b].cracks != rest.cracks) continue;
       rest.add(faces_[b]);
       if (!most || faces_[b].volume > most->volume) most = &faces_[b];
     }
     pair_faces(node, faces_[a], rest, most);
   }
 
-  /// Rigid bodies, whatever cracks part the material beside them; after all others (CONVENTIONS 36).
-  void pair_rigid(const ContactNode<Dim>& node) {
-    for (const Face<Dim>& rigid : faces_) {
-      if (!rigid.rigid) continue;
-      for (const Face<Dim>& f : faces_) {
-        if (!f.rigid) pair_faces(node, f, rigid);
+  /// Bodies that no crack parts, with all others whatever cracks part those; rigid ones last (CONVENTIONS 36).
+  void pair_whole(const ContactNode<Dim>& node) {
+    for (const bool rigid : {false, true}) {
+      for (std::size_t w = 0; w < faces_.size(); ++w) {
+        if (!faces_[w].whole || faces_[w].rigid != rigid) continue;
+        for (std::size_t f = 0; f < faces_.size(); ++f) {
+          const bool met_before = faces_[f].whole && f >= w;
+          if (!faces_[f].rigid && (rigid || !met_before)) pair_faces(node, faces_[f], faces_[w]);
+        }
       }
     }
   }
@@ -306,7 +312,7 @@ class NodeFinder {
     const std::size_t begin = out_.pairs.size();
     sides_.clear();
     for (const Face<Dim>& f : faces_) {
-      if (f.rigid) continue;
+      if (f.whole) continue;
       auto at = std::find_if(sides_.begin(), sides_.end(), [&](const Face<Dim>& s) { return s.cracks == f.cracks; });
       if (at == sides_.end()) {
         sides_.push_back(f);
@@ -367,7 +373,7 @@ class NodeFinder {
   const BlockLayers<Dim>& layers_;
   ContactNodes<Dim>& out_;
   std::vector<int> present_, walls_;
-  ContactCloud<Dim> cloud_;
+  ContactCloud<Dim>& cloud_;
   FaceToFace<Dim> view_;
   // Of the node at hand.
   std::vector<Face<Dim>> faces_;  ///< by group
@@ -378,10 +384,21 @@ class NodeFinder {
 
 }  // namespace
 
+template <int Dim>
+bool is_near_wall(const State<Dim>& state, const Model<Dim>& model, const Vec<Dim>& x, double reach) {
+  for (std::size_t body = 0; body < model.rigid_bodies.size(); ++body) {
+    const auto& wall = model.rigid_bodies[body].wall;
+    if (wall && wall->seen_from(x, state.rigid[body].start.centre).distance < reach + wall_reach(model.grid)) return true;
+  }
+  return false;
+}
+template bool is_near_wall<2>(const State<2>&, const Model<2>&, const Vec<2>&, double);
+template bool is_near_wall<3>(const State<3>&, const Model<3>&, const Vec<3>&, double);
+
 template <int Dim, class Shape>
 void find_contacts(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   state.scratch[b].contact.clear();
-  if (state.nodes.layers[b].node.size() < 2 && !state.nodes.layers[b].near_wall) return;
+  if (state.nodes.layers[b].shared.empty()) return;
   NodeFinder<Dim, Shape>(state, model, b).run();
 }
 

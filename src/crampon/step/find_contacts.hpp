@@ -6,13 +6,9 @@
 
 namespace crampon {
 
-/// Distance from a wall, m, beyond which it holds no node, however it lies in the cells.
+/// Is x, m, within reach of a wall?
 template <int Dim>
-double wall_reach(const Grid<Dim>& grid) {
-  double h = 0;
-  for (int k = 0; k < Dim; ++k) h = std::fmax(h, grid.cell[k]);
-  return h;
-}
+bool is_near_wall(const State<Dim>& state, const Model<Dim>& model, const Vec<Dim>& x, double reach = 0);
 
 /// After Task 1: the nodes with several fields, their groups, pairs, normals, gaps and areas, which hold for the whole step.
 template <int Dim, class Shape>

@@ -23,11 +23,8 @@ template <int Dim, class Shape>
 void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
   using T = Tile<Dim, Shape>;
   const bool by_volume = (!state.cracks.empty() && model.contact.detection == ContactDetection::volume) ||
-                         (model.fields.size() > 1 && model.contact.material_detection == MaterialDetection::volume);
+                         (model.fields.size() > 1 && model.contact.material_detection == ContactDetection::volume);
   if (state.step != 0 || !by_volume || model.contact.reference_volume != ReferenceVolume::initial) return;
-  std::int64_t total = 1;
-  for (int k = 0; k < Dim; ++k) total *= std::int64_t{model.grid.blocks[k]} * block_side;
-  state.initial_volume.assign(static_cast<std::size_t>(total), 0.);
   for (std::size_t b = 0; b < state.blocks.size(); ++b) {
     if (!state.blocks.list[b].has_particles()) continue;
     const auto first = state.blocks.list[b].first_node();
@@ -38,7 +35,7 @@ void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
             for (int n = 0; n < T::stencil; ++n) {
               auto node = unflatten<Dim>(targets ? targets[l * T::stencil + n].node : stencil.lowest(l) + T::steps[n], T::side);
               for (int k = 0; k < Dim; ++k) node[k] += first[k] - T::offset;
-              state.initial_volume[static_cast<std::size_t>(model.grid.node_number(node))] += V_p * stencil.S[n][l];
+              state.initial_volume[model.grid.node_number(node)] += V_p * stencil.weight(n, l);
             }
           }
         });

@@ -35,6 +35,7 @@ struct Material {
 struct MaterialField {
   std::string name;
   bool rigid = false;    ///< of a rigid body: masses on its nodes are volumes, 1 kg/m3
+  bool whole = false;    ///< cracks do not part it: rigid, or as the input has it
   int body = -1;         ///< rigid: index into Model::rigid_bodies
   double thickness = 1;  ///< m, 2D
   EdgeMap edge;          ///< from the mean position of its particles about a node to its edge
@@ -117,7 +118,8 @@ struct Model {
     double volume_separated = 0.9, volume_contact = 1.1;  ///< V_sep, V_contact (N03 section 2.2)
     bool require_approach = true;                         ///< also above V_contact (CONVENTIONS 6)
     double mass_screen = 1e-6;                            ///< CONVENTIONS 37
-    MaterialDetection material_detection = MaterialDetection::position;
+    ContactDetection material_detection = ContactDetection::position;
+    std::optional<double> position_cutoff;  ///< cells; none: by MaterialField::edge
     ContactNormal normal = ContactNormal::logistic_regression;
     double rigid_bias = 10;  ///< a rigid body's gradient is taken unless it is smaller by more than this
     SeveralMaterials several_materials = SeveralMaterials::pairwise;
@@ -140,6 +142,7 @@ struct Model {
     return field_laws[static_cast<std::size_t>(a) * fields.size() + static_cast<std::size_t>(b)];
   }
   bool is_rigid(std::uint16_t field) const { return fields[field].rigid; }
+  bool is_whole(std::uint16_t field) const { return fields[field].whole; }
 };
 
 }  // namespace crampon

@@ -19,8 +19,8 @@ std::optional<Vec<2>> plane_velocity(const State<2>& state, const Model<2>& mode
     const BlockLayers<2>& layers = state.nodes.layers[node.block];
     Pack p = splat(0.);
     for (std::size_t l = 0; l < layers.node.size(); ++l) {
-      if (model.is_rigid(layers.node[l].field)) continue;
-      p += state.nodes.momentum[(layers.node_begin + l) * block_nodes<2> + node.local];
+      if (model.is_whole(layers.node[l].field)) continue;
+      p += state.nodes.momentum[layers.slot(l, node.local)];
     }
     if (!(p[2] > 0)) continue;
     for (int k = 0; k < 2; ++k) sum[k] += node.S * p[k] / p[2];

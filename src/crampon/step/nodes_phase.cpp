@@ -11,25 +11,20 @@ namespace crampon {
 
 namespace {
 
-template <int Dim>
-std::size_t first_node_of(const State<Dim>& state, std::size_t b, std::size_t layer) {
-  return (state.nodes.layers[b].node_begin + layer) * block_nodes<Dim>;
-}
-
 template <int Dim, class Shape>
 void assemble_momentum(State<Dim>& state, std::size_t b) {
   const BlockLayers<Dim>& layers = state.nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    assemble_layer<Dim, Shape>(state, b, layers.node[l], state.nodes.tile_momentum, &state.nodes.momentum[first_node_of(state, b, l)]);
+    assemble_layer<Dim, Shape>(state, b, layers.node[l], state.nodes.tile_momentum, &state.nodes.momentum[layers.slot(l, 0)]);
   }
 }
 
 template <int Dim, class Shape>
 void assemble_contact_sums(State<Dim>& state, std::size_t b) {
   const BlockLayers<Dim>& layers = state.nodes.layers[b];
-  if (layers.node.size() < 2 && !layers.near_wall) return;
+  if (layers.shared.empty()) return;
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    assemble_layer<Dim, Shape>(state, b, layers.node[l], state.nodes.tile_contact, &state.nodes.contact[first_node_of(state, b, l)], true);
+    assemble_layer<Dim, Shape>(state, b, layers.node[l], state.nodes.tile_contact, &state.nodes.contact[layers.slot(l, 0)], true);
   }
   // Normals belong to cracks, not to layers, and are kept for the whole tile.
   for (std::size_t c = 0; c < layers.node_cracks.size(); ++c) {
@@ -54,7 +49,7 @@ void assemble_contact_sums(State<Dim>& state, std::size_t b) {
 /// v = p/m, zero where there is no mass.
 template <int Dim>
 void find_velocities(State<Dim>& state, std::size_t b) {
-  const std::size_t first = first_node_of(state, b, 0), end = first_node_of(state, b, state.nodes.layers[b].node.size());
+  const std::size_t first = state.nodes.layers[b].slot(0, 0), end = state.nodes.layers[b].slot(state.nodes.layers[b].node.size(), 0);
   for (std::size_t i = first; i < end; ++i) {
     const Pack p = state.nodes.momentum[i];
     state.nodes.velocity[i] = leading<Dim>(p * splat(p[Dim] > 0 ? 1 / p[Dim] : 0.));
@@ -67,7 +62,7 @@ void for_deformable(const State<Dim>& state, const Model<Dim>& model, std::size_
   const BlockLayers<Dim>& layers = state.nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
     if (model.is_rigid(layers.node[l].field)) continue;
-    const std::size_t first = first_node_of(state, b, l);
+    const std::size_t first = layers.slot(l, 0);
     for (std::size_t i = first; i < first + block_nodes<Dim>; ++i) f(i);
   }
 }
@@ -75,8 +70,24 @@ void for_deformable(const State<Dim>& state, const Model<Dim>& model, std::size_
 }  // namespace
 
 template <int Dim, class Shape>
-void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+void find_shared_nodes(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  BlockLayers<Dim>& layers = state.nodes.layers[b];
+  layers.shared.clear();
+  if (layers.node.size() < 2 && !layers.near_wall) return;
   assemble_momentum<Dim, Shape>(state, b);
+  layers.shared.assign(block_nodes<Dim>, 0);
+  for (int n = 0; n < block_nodes<Dim>; ++n) {
+    int fields = 0;
+    for (std::size_t l = 0; l < layers.node.size(); ++l) fields += state.nodes.momentum[layers.slot(l, n)][Dim] > 0;
+    const bool at_wall =
+        fields == 1 && layers.near_wall && is_near_wall(state, model, model.grid.node_position(state.blocks.list[b].node(n)));
+    layers.shared[static_cast<std::size_t>(n)] = fields > 1 || at_wall;
+  }
+}
+
+template <int Dim, class Shape>
+void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  if (state.nodes.layers[b].shared.empty()) assemble_momentum<Dim, Shape>(state, b);
   if (model.any_contact()) {
     assemble_contact_sums<Dim, Shape>(state, b);
     find_contacts<Dim, Shape>(state, model, b);
@@ -101,9 +112,9 @@ void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, d
   for (int k = 0; k < Dim; ++k) gravity[k] = body_force[k];
   const bool accounts = damping != 0 || model.any_body_force();
   static thread_local std::vector<NodalVector<Dim>> start_velocity;
-  const std::size_t first = first_node_of(state, b, 0), end = first_node_of(state, b, layers.node.size());
+  const std::size_t first = layers.slot(0, 0), end = layers.slot(layers.node.size(), 0);
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_force, &nodes.force[first_node_of(state, b, l)]);
+    assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_force, &nodes.force[layers.slot(l, 0)]);
   }
   add_tractions(state, b);
   if (accounts) {
@@ -157,6 +168,7 @@ void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t 
 }
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                   \
+  template void find_shared_nodes<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                               \
   template void settle_start_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);                    \
   template void update_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const Vec<DIM>&, double); \
   template void settle_end_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);

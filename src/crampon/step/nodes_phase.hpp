@@ -6,6 +6,11 @@
 
 namespace crampon {
 
+/// Task 1: marks the own nodes of a block that hold several fields or are near a wall (BlockLayers::shared), and assembles momenta where
+/// there may be some.
+template <int Dim, class Shape>
+void find_shared_nodes(State<Dim>& state, const Model<Dim>& model, std::size_t block);
+
 /// Tasks 1 and 2: assembles momenta, finds contacts, adjusts them, imposes velocities; leaves nodal velocities.
 template <int Dim, class Shape>
 void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt);

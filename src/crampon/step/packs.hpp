@@ -1,33 +1,62 @@
 #pragma once
 /// The walk over the particles of a block, pack by pack, with S_ip and G_ip at hand. Every particle loop of the step is one of these.
 
-#include "crampon/shape/stencil.hpp"
+#include "crampon/shape/separable.hpp"
 #include "crampon/step/model.hpp"
 #include "crampon/step/state.hpp"
 
 namespace crampon {
+
+/// The stencils of a block's packs, run by run.
+template <int Dim, class Shape>
+class BlockStencils {
+ public:
+  BlockStencils(const State<Dim>& state, const Model<Dim>& model, std::size_t b)
+      : state_(state),
+        model_(model),
+        block_(state.blocks.list[b]),
+        layers_(state.nodes.layers[b]),
+        first_node_(block_.first_node()),
+        first_pack_(state.blocks.runs[block_.first_run].first_pack) {}
+
+  const Run& enter_run(std::uint32_t r) {
+    const Run& run = state_.blocks.runs[r];
+    half_size_ = &model_.materials[run.material].half_size;
+    layer_ = layers_.run_layer.empty() ? 0 : layers_.run_layer[r - block_.first_run];
+    return run;
+  }
+  /// Computes the stencil of a pack of the run; returns where its pairs go, or null.
+  [[gnu::always_inline]] const PairTarget* find(std::uint32_t pack, Stencil<Dim, Shape>& stencil) const {
+    Pack x[Dim];
+    state_.particles.pack_positions(pack, x);
+    stencil.compute(x, model_.grid, first_node_, *half_size_);
+    if (layer_ > 0) stencil.move_to_layer(layer_);
+    const std::int32_t special = layers_.special.empty() ? -1 : layers_.special[pack - first_pack_];
+    return special < 0 ? nullptr : &layers_.targets[static_cast<std::size_t>(special) * lanes * Stencil<Dim, Shape>::count];
+  }
+
+ private:
+  const State<Dim>& state_;
+  const Model<Dim>& model_;
+  const Block<Dim>& block_;
+  const BlockLayers<Dim>& layers_;
+  IndexVector<Dim> first_node_;
+  std::uint32_t first_pack_;
+  const HalfSize<Dim>* half_size_ = nullptr;
+  int layer_ = 0;
+};
 
 /// f(pack, stencil, targets, run): targets is null for packs whose pairs all go to their own node in the stencil's layer, else
 /// [lane][stencil node] says where each pair goes. Each stencil is computed into what place() refers to.
 template <int Dim, class Shape, class Place, class F>
 [[gnu::always_inline]] inline void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, Place&& place, F&& f) {
   const Block<Dim>& block = state.blocks.list[b];
-  const BlockLayers<Dim>& layers = state.nodes.layers[b];
-  const auto first_node = block.first_node();
-  const std::uint32_t first_pack = state.blocks.runs[block.first_run].first_pack;
+  BlockStencils<Dim, Shape> stencils(state, model, b);
   for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
-    const Run& run = state.blocks.runs[r];
-    const HalfSize<Dim>& half_size = model.materials[run.material].half_size;
-    const int layer = layers.run_layer.empty() ? 0 : layers.run_layer[r - block.first_run];
+    const Run& run = stencils.enter_run(r);
     for (std::uint32_t k = run.first_pack; k < run.end_pack; ++k) {
-      Pack x[Dim];
-      state.particles.pack_positions(k, x);
       Stencil<Dim, Shape>& stencil = place();
-      stencil.compute(x, model.grid, first_node, half_size);
-      if (layer > 0) stencil.move_to_layer(layer);
-      const std::int32_t special = layers.special.empty() ? -1 : layers.special[k - first_pack];
-      const PairTarget* targets =
-          special < 0 ? nullptr : &layers.targets[static_cast<std::size_t>(special) * lanes * Stencil<Dim, Shape>::count];
+      const PairTarget* targets = stencils.find(k, stencil);
       f(k, stencil, targets, run);
     }
   }
@@ -41,24 +70,30 @@ void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, 
       state, model, b, [&]() -> Stencil<Dim, Shape>& { return stencil; }, f);
 }
 
+/// The same for some packs of the block, ascending.
+template <int Dim, class Shape, class F>
+void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<std::uint32_t>& packs, F&& f) {
+  std::uint32_t r = state.blocks.list[b].first_run;
+  BlockStencils<Dim, Shape> stencils(state, model, b);
+  Stencil<Dim, Shape> stencil;
+  for (const std::uint32_t pack : packs) {
+    while (pack >= state.blocks.runs[r].end_pack) ++r;
+    const Run& run = stencils.enter_run(r);
+    f(pack, stencil, stencils.find(pack, stencil), run);
+  }
+}
+
 /// f(loaded, stencil, lane, targets) for the particles of a block that loads act on.
 template <int Dim, class Shape, class F>
 void for_loaded(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
-  const Block<Dim>& block = state.blocks.list[b];
-  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  BlockStencils<Dim, Shape> stencils(state, model, b);
   Stencil<Dim, Shape> stencil;
   for (const LoadedParticle<Dim>& loaded : state.scratch[b].loaded) {
     const std::uint32_t pack = loaded.slot / lanes;
-    const Run* run = &state.blocks.runs[block.first_run];
-    while (pack >= run->end_pack) ++run;
-    Pack x[Dim];
-    state.particles.pack_positions(pack, x);
-    stencil.compute(x, model.grid, block.first_node(), model.materials[run->material].half_size);
-    if (!layers.run_layer.empty())
-      stencil.move_to_layer(layers.run_layer[static_cast<std::size_t>(run - &state.blocks.runs[block.first_run])]);
-    const std::int32_t special = layers.special.empty() ? -1 : layers.special[pack - state.blocks.runs[block.first_run].first_pack];
-    const PairTarget* targets =
-        special < 0 ? nullptr : &layers.targets[static_cast<std::size_t>(special) * lanes * Stencil<Dim, Shape>::count];
+    std::uint32_t r = state.blocks.list[b].first_run;
+    while (pack >= state.blocks.runs[r].end_pack) ++r;
+    stencils.enter_run(r);
+    const PairTarget* targets = stencils.find(pack, stencil);
     f(loaded, stencil, static_cast<int>(loaded.slot % lanes), targets);
   }
 }
@@ -78,12 +113,20 @@ inline V flipped(V a, unsigned flip) {
 template <int Dim, class Shape>
 inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, const Pack* record, Pack* tiles) {
   using T = Tile<Dim, Shape>;
+  if constexpr (Stencil<Dim, Shape>::separable) {
+    if (!targets) {
+      const SeparableSums<Shape> sums(s);
+      if (s.same_base) return sums.scatter(0, lanes, record, tiles);
+      for (int l = 0; l < lanes; ++l) sums.scatter(l, l + 1, record, tiles);
+      return;
+    }
+  }
   if (targets) {
     for (int l = 0; l < lanes; ++l) {
       for (int n = 0; n < T::stencil; ++n) {
         const PairTarget t = targets[l * T::stencil + n];
         Pack& q = tiles[t.layer * T::nodes + t.node];
-        q = fused(splat(s.S[n][l]), flipped(record[l], t.flip), q);
+        q = fused(splat(s.weight(n, l)), flipped(record[l], t.flip), q);
       }
     }
   } else if (s.same_base) {
@@ -91,13 +134,13 @@ inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, con
     for (int n = 0; n < T::stencil; ++n) {
       Pack& q = lowest[T::steps[n]];
       Pack sum = q;
-      for (int l = 0; l < lanes; ++l) sum = fused(splat(s.S[n][l]), record[l], sum);
+      for (int l = 0; l < lanes; ++l) sum = fused(splat(s.weight(n, l)), record[l], sum);
       q = sum;
     }
   } else {
     for (int l = 0; l < lanes; ++l) {
       Pack* lowest = tiles + s.base[l];
-      for (int n = 0; n < T::stencil; ++n) lowest[T::steps[n]] = fused(splat(s.S[n][l]), record[l], lowest[T::steps[n]]);
+      for (int n = 0; n < T::stencil; ++n) lowest[T::steps[n]] = fused(splat(s.weight(n, l)), record[l], lowest[T::steps[n]]);
     }
   }
 }
@@ -121,14 +164,32 @@ inline void for_stencil(const Stencil<Dim, Shape>& s, const PairTarget* targets,
 template <int Dim, class Shape>
 inline void gradient(const Stencil<Dim, Shape>& s, const PairTarget* targets, const NodalVector<Dim>* velocity, Pack* L) {
   using T = Tile<Dim, Shape>;
-  if (!targets && s.same_base) {
+  if constexpr (Stencil<Dim, Shape>::separable) {
+    if (!targets) {
+      const SeparableSums<Shape> sums(s);
+      const NodalVector<Dim>* lowest = velocity + s.base[0];
+      if (s.same_base) {
+        for (int d = 0; d < 3; ++d) sums.gradient([&](int node) { return splat_lane(lowest[node], d); }, L + d * 3);
+        return;
+      }
+      Pack g[lanes][3];
+      for (int l = 0; l < lanes; ++l)
+        sums.gradient(
+            l, [&](int node) { return velocity[s.base[l] + node]; }, g[l]);
+      for (int k = 0; k < 3; ++k) {
+        transpose(g[0][k], g[1][k], g[2][k], g[3][k]);
+        for (int d = 0; d < 3; ++d) L[d * 3 + k] = g[d][k];
+      }
+      return;
+    }
+  } else if (!targets && s.same_base) {
     // Four particles share each node: lanes over particles.
     for (int e = 0; e < Dim * Dim; ++e) L[e] = splat(0.);
     const NodalVector<Dim>* lowest = velocity + s.base[0];
     for (int n = 0; n < T::stencil; ++n) {
       for (int d = 0; d < Dim; ++d) {
         const Pack v = splat(lowest[T::steps[n]][d]);
-        for (int k = 0; k < Dim; ++k) L[d * Dim + k] = fused(s.G[n][k], v, L[d * Dim + k]);
+        for (int k = 0; k < Dim; ++k) L[d * Dim + k] = fused(s.weights.G[n][k], v, L[d * Dim + k]);
       }
     }
     return;
@@ -139,7 +200,7 @@ inline void gradient(const Stencil<Dim, Shape>& s, const PairTarget* targets, co
     for (int k = 0; k < Dim; ++k) column[k] = splat_as<NodalVector<Dim>>(0.);
     for_stencil<Dim, Shape>(s, targets, l, velocity, [&](NodalVector<Dim> v_i, int n, unsigned flip) {
       const NodalVector<Dim> v = flipped(v_i, flip);
-      for (int k = 0; k < Dim; ++k) column[k] = fused(splat_as<NodalVector<Dim>>(s.G[n][k][l]), v, column[k]);
+      for (int k = 0; k < Dim; ++k) column[k] = fused(splat_as<NodalVector<Dim>>(s.slope(n, k, l)), v, column[k]);
     });
     for (int d = 0; d < Dim; ++d) {
       for (int k = 0; k < Dim; ++k) out[(d * Dim + k) * lanes + l] = column[k][d];
@@ -174,12 +235,20 @@ inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* target
       minus_tau[k][0] = a, minus_tau[k][1] = b, minus_tau[k][2] = c, minus_tau[k][3] = d;
     }
   }
+  if constexpr (Stencil<Dim, Shape>::separable) {
+    if (!targets) {
+      const SeparableSums<Shape> sums(s);
+      if (s.same_base) return sums.scatter_slopes(0, lanes, minus_tau, tiles);
+      for (int l = 0; l < lanes; ++l) sums.scatter_slopes(l, l + 1, minus_tau, tiles);
+      return;
+    }
+  }
   if (!targets && s.same_base) {
     NodalVector<Dim>* lowest = tiles + s.base[0];
     for (int n = 0; n < T::stencil; ++n) {
       NodalVector<Dim> f = lowest[T::steps[n]];
       for (int l = 0; l < lanes; ++l) {
-        for (int k = 0; k < Dim; ++k) f = fused(column_of(k, l), splat_as<NodalVector<Dim>>(s.G[n][k][l]), f);
+        for (int k = 0; k < Dim; ++k) f = fused(column_of(k, l), splat_as<NodalVector<Dim>>(s.slope(n, k, l)), f);
       }
       lowest[T::steps[n]] = f;
     }
@@ -191,14 +260,14 @@ inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* target
     for (int n = 0; n < T::stencil; ++n) {
       if (targets) {
         const PairTarget t = targets[l * T::stencil + n];
-        NodalVector<Dim> f = t_k[0] * splat_as<NodalVector<Dim>>(s.G[n][0][l]);
-        for (int k = 1; k < Dim; ++k) f = fused(t_k[k], splat_as<NodalVector<Dim>>(s.G[n][k][l]), f);
+        NodalVector<Dim> f = t_k[0] * splat_as<NodalVector<Dim>>(s.slope(n, 0, l));
+        for (int k = 1; k < Dim; ++k) f = fused(t_k[k], splat_as<NodalVector<Dim>>(s.slope(n, k, l)), f);
         NodalVector<Dim>& q = tiles[t.layer * T::nodes + t.node];
         q += flipped(f, t.flip);
       } else {
         NodalVector<Dim>& q = tiles[s.base[l] + T::steps[n]];
         NodalVector<Dim> f = q;
-        for (int k = 0; k < Dim; ++k) f = fused(t_k[k], splat_as<NodalVector<Dim>>(s.G[n][k][l]), f);
+        for (int k = 0; k < Dim; ++k) f = fused(t_k[k], splat_as<NodalVector<Dim>>(s.slope(n, k, l)), f);
         q = f;
       }
     }

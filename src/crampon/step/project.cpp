@@ -48,12 +48,63 @@ void add_contact_share(const Model<Dim>& model, const IndexVector<Dim>& node, do
   }
 }
 
+/// The nodes about a block that hold several fields or are near a wall, as its tile sees them.
+template <int Dim, class Shape>
+class SharedNodes {
+  using T = Tile<Dim, Shape>;
+
+ public:
+  SharedNodes(const State<Dim>& state, std::size_t b) {
+    for (int o = 0; o < neighbour_count<Dim>; ++o) {
+      const std::uint32_t c = state.blocks.list[b].neighbours[o];
+      if (c == no_block || state.nodes.layers[c].shared.empty()) continue;
+      IndexVector<Dim> step = neighbour_step<Dim>(o);
+      for (int k = 0; k < Dim; ++k) step[k] = -step[k];
+      Overlap<Dim, Shape>(step, whole_tile<Dim, Shape>()).rows([&](int local, int t, int count) {
+        for (int i = 0; i < count; ++i) {
+          if (state.nodes.layers[c].shared[static_cast<std::size_t>(local + i)] != 0) mark(t + i);
+        }
+      });
+    }
+  }
+
+  bool any() const { return any_; }
+  bool at(int tile_node) const { return shared_[tile_node]; }
+  /// Does a particle of the pack have a pair with such a node?
+  bool reached(const Stencil<Dim, Shape>& stencil, const PairTarget* targets) const {
+    for (int l = 0; l < lanes; ++l) {
+      if (!targets && reaching_[stencil.lowest(l)]) return true;
+      for (int n = 0; targets && n < T::stencil; ++n) {
+        if (shared_[targets[l * T::stencil + n].node]) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  void mark(int node) {
+    any_ = shared_[node] = true;
+    for (const int step : T::steps) {
+      if (node >= step) reaching_[node - step] = true;
+    }
+  }
+
+  bool any_ = false;
+  bool shared_[T::nodes] = {};
+  bool reaching_[T::nodes] = {};  ///< as the lowest node of a stencil
+};
+
 }  // namespace
 
 template <int Dim, class Shape>
 void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   using T = Tile<Dim, Shape>;
-  if (!state.blocks.list[b].has_particles() || !state.nodes.layers[b].sums_contact) return;
+  BlockLayers<Dim>& layers = state.nodes.layers[b];
+  layers.contact_packs.clear();
+  if (!state.blocks.list[b].has_particles() || !layers.sums_contact) return;
+  const SharedNodes<Dim, Shape> shared(state, b);
+  layers.sums_contact = shared.any();
+  if (!shared.any()) return;
   ContactSums<Dim>* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_contact);
   const Particles<Dim>& particles = state.particles;
   const auto first_node = state.blocks.list[b].first_node();
@@ -61,6 +112,8 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
   const bool histories = particles.contact.size() > 0;
   for_packs<Dim, Shape>(
       state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+        if (!shared.reached(stencil, targets)) return;
+        layers.contact_packs.push_back(pack);
         const Material<Dim>& material = model.materials[run.material];
         Pack volume = splat(0.);
         if (volumes) {
@@ -78,14 +131,15 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
             const PairTarget t = targets ? targets[l * T::stencil + n]
                                          : PairTarget{static_cast<std::uint16_t>(stencil.lowest(l) + T::steps[n]),
                                                       static_cast<std::uint8_t>(stencil.layer), 0};
+            if (!shared.at(t.node)) continue;
             IndexVector<Dim> node = unflatten<Dim>(n, Shape::width);
             Vec<Dim> G;
             for (int k = 0; k < Dim; ++k) {
               node[k] += lowest[k] + first_node[k] - T::offset;
-              G[k] = stencil.G[n][k][l];
+              G[k] = stencil.slope(n, k, l);
             }
-            add_contact_share<Dim>(model, node, stencil.S[n][l], G, m_p, volume[l], histories ? particles.contact[p] : 0., x_p, X_p, t.flip,
-                                   tiles[t.layer * T::nodes + t.node]);
+            add_contact_share<Dim>(model, node, stencil.weight(n, l), G, m_p, volume[l], histories ? particles.contact[p] : 0., x_p, X_p,
+                                   t.flip, tiles[t.layer * T::nodes + t.node]);
           }
         }
       });
@@ -107,7 +161,7 @@ void project_loads(const State<Dim>& state, const Model<Dim>& model, std::size_t
           const int node =
               targets ? targets[l * T::stencil + n].layer * T::nodes + targets[l * T::stencil + n].node : stencil.base[l] + T::steps[n];
           const unsigned flip = targets ? targets[l * T::stencil + n].flip : 0u;
-          tiles[node] = fused(splat_as<NodalVector<Dim>>(stencil.S[n][l]), flipped(f_p, flip), tiles[node]);
+          tiles[node] = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), flipped(f_p, flip), tiles[node]);
         }
       });
 }
@@ -130,7 +184,7 @@ void project_rigid_motion(const State<Dim>& state, const Model<Dim>& model, std:
                             for (int n = 0; n < T::stencil; ++n) {
                               const PairTarget* t = targets ? &targets[l * T::stencil + n] : nullptr;
                               NodalVector<Dim>& q = tiles[t ? t->layer * T::nodes + t->node : stencil.base[l] + T::steps[n]];
-                              q = fused(splat_as<NodalVector<Dim>>(stencil.S[n][l]), flipped(f_p, t ? t->flip : 0u), q);
+                              q = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), flipped(f_p, t ? t->flip : 0u), q);
                             }
                           }
                         });
@@ -149,7 +203,8 @@ void mirror_body_force(const State<Dim>& state, const Model<Dim>& model, std::si
                             for (int n = 0; n < T::stencil; ++n) {
                               const PairTarget t = targets[l * T::stencil + n];
                               for (int k = 0; k < Dim; ++k) {
-                                if (t.flip >> k & 1u) tiles[t.layer * T::nodes + t.node][k] -= 2 * stencil.S[n][l] * m_p * body_force[k];
+                                if (t.flip >> k & 1u)
+                                  tiles[t.layer * T::nodes + t.node][k] -= 2 * stencil.weight(n, l) * m_p * body_force[k];
                               }
                             }
                           }

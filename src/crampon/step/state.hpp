@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "crampon/contact/memory.hpp"
@@ -92,6 +93,7 @@ struct CrackTractionState {
   std::vector<Vec<Dim>> force;  ///< on the upper surface in the next step, N
   std::vector<double> stored;   ///< J/m2
   std::vector<double> area;     ///< m2; 0 where the law does not act
+  std::vector<bool> between;    ///< there is material on both sides in this step
 };
 
 /// All traction laws together, J.
@@ -138,13 +140,14 @@ struct State {
   ContactMemory memory;
   std::vector<CrackTractionState<Dim>> tractions;  ///< per crack
   CohesiveTotals cohesive;
-  double traction_time_step = std::numeric_limits<double>::infinity();  ///< longest that the springs of traction laws bear, s
-  std::vector<FailureEvent<Dim>> events;                                ///< since the start
-  std::vector<RigidMotion<Dim>> rigid;                                  ///< per rigid body
-  std::vector<RigidReaction<Dim>> rigid_reactions;                      ///< per rigid body, last step
-  std::vector<std::int64_t> prescribed_by_rigid;                        ///< node number * Dim + axis, ascending: last step
+  double traction_time_step = std::numeric_limits<double>::infinity();        ///< longest that the springs of traction laws bear now, s
+  double least_traction_time_step = std::numeric_limits<double>::infinity();  ///< ... since the start
+  std::vector<FailureEvent<Dim>> events;                                      ///< since the start
+  std::vector<RigidMotion<Dim>> rigid;                                        ///< per rigid body
+  std::vector<RigidReaction<Dim>> rigid_reactions;                            ///< per rigid body, last step
+  std::vector<std::int64_t> prescribed_by_rigid;                              ///< node number * Dim + axis, ascending: last step
   std::vector<bool> condition_was_active;
-  std::vector<double> initial_volume;  ///< per node number: volume of the uncut body at the start, m2 or m3 (CONVENTIONS 10)
+  std::unordered_map<std::int64_t, double> initial_volume;  ///< by node number: of the uncut body at the start, m2 or m3 (CONVENTIONS 10)
   bool must_reorder = true;
   std::size_t particle_count = 0;
   std::int64_t removed = 0;  ///< particles removed on leaving the grid

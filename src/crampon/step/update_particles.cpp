@@ -14,9 +14,17 @@ namespace {
 template <int Dim, class Shape>
 inline MotionRecord<Dim> interpolate(const Stencil<Dim, Shape>& s, const PairTarget* targets, int l, const MotionRecord<Dim>* motion) {
   MotionRecord<Dim> sum;
+  if constexpr (Stencil<Dim, Shape>::separable) {
+    if (!targets) {
+      const SeparableSums<Shape> sums(s);
+      const MotionRecord<Dim>* lowest = motion + s.base[l];
+      for (int r = 0; r < 2; ++r) sum.r[r] = sums.interpolate(l, [&](int node) { return lowest[node].r[r]; });
+      return sum;
+    }
+  }
   for (Pack& r : sum.r) r = splat(0.);
   for_stencil<Dim, Shape>(s, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {
-    const Pack S = splat(s.S[n][l]);
+    const Pack S = splat(s.weight(n, l));
     if constexpr (Dim == 2) {
       sum.r[0] = fused(S, flipped(m.r[0], flip | flip << 2), sum.r[0]);
     } else {
@@ -88,8 +96,8 @@ void remember_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b)
                           for (int l = 0; l < lanes; ++l) {
                             double gain = 0, weight = 0;
                             for_stencil<Dim, Shape>(stencil, targets, l, gains, [&](const ContactSums<Dim>& c, int n, unsigned) {
-                              gain += stencil.S[n][l] * c.r[0][0];
-                              weight += stencil.S[n][l] * c.r[0][1];
+                              gain += stencil.weight(n, l) * c.r[0][0];
+                              weight += stencil.weight(n, l) * c.r[0][1];
                             });
                             if (weight > 0) state.particles.contact[std::size_t{pack} * lanes + l] += gain / weight;
                           }
@@ -161,21 +169,21 @@ void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
                            }
                          });
   if (!mirrors) return;
-  for_packs<Dim, Shape>(state, model, b,
-                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
-                          if (model.is_rigid(model.materials[run.material].field)) return;
-                          for (int l = 0; l < lanes && targets; ++l) {
-                            const double m_p = state.particles.mass(std::size_t{pack} * lanes + l);
-                            for_stencil<Dim, Shape>(stencil, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {
-                              for (int k = 0; k < Dim; ++k) {
-                                const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
-                                // The nodes' account took this mass as if it were no image.
-                                if (flip >> k & 1u)
-                                  state.scratch[b].ledger.body_work -= 2 * stencil.S[n][l] * m_p * body_force[k] * (v - 0.5 * a * dt) * dt;
-                              }
-                            });
-                          }
-                        });
+  for_packs<Dim, Shape>(
+      state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+        if (model.is_rigid(model.materials[run.material].field)) return;
+        for (int l = 0; l < lanes && targets; ++l) {
+          const double m_p = state.particles.mass(std::size_t{pack} * lanes + l);
+          for_stencil<Dim, Shape>(stencil, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {
+            for (int k = 0; k < Dim; ++k) {
+              const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
+              // The nodes' account took this mass as if it were no image.
+              if (flip >> k & 1u)
+                state.scratch[b].ledger.body_work -= 2 * stencil.weight(n, l) * m_p * body_force[k] * (v - 0.5 * a * dt) * dt;
+            }
+          });
+        }
+      });
 }
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                      \
