@@ -1,22 +1,25 @@
-/// What a step costs: inputs stepped in turns in one process, so that a change of the machine's speed hits all alike and ratios count.
+/// What a step costs: inputs that take turns in one process, so that a change of the machine's speed hits all alike and ratios count.
 /// Prints JSON, a list with an entry for each; bench/run makes a table of it.
 ///
-///   step_cost [--threads N] [--seconds S] CASE.toml ...
+///   step_cost [--threads N] [--seconds S] [--skip STEPS] CASE.toml|bare:KERNEL ...
+///
+/// --skip: steps before measuring begins, 2 unless told, which sort the particles and touch the memory.
 
 #include <ctime>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <memory>
+#include <regex>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/baseline/kernel.hpp"
 #include "crampon/input/read_problem.hpp"
 #include "crampon/run/simulation.hpp"
 
@@ -31,67 +34,111 @@ double cpu_seconds() {
 
 double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+/// An input of the engine, or a bare kernel.
 struct Contestant {
   std::string name;
-  double particles = 0, memory_bytes = 0;
-  std::unique_ptr<Simulation> simulation;
-  std::vector<double> cpu{}, wall{};  ///< s, of each step
+  std::unique_ptr<Simulation> simulation{};
+  std::unique_ptr<bench::Kernel> bare{};
+  double particles = 0;
+  int steps = 0;                      ///< since measuring began
+  std::vector<PhaseTime> before{};    ///< phases when measuring began
+  std::vector<double> cpu{}, wall{};  ///< s per step, of each turn
+
+  void step() {
+    simulation ? simulation->step(HUGE_VAL) : bare->step();
+    ++steps;
+  }
+
+  /// The first step of a turn is not timed: it finds the caches full of what others left there.
+  void take_turn() {
+    constexpr double long_enough = .01;  // s
+    step();
+    const double cpu_start = cpu_seconds(), wall_start = wall_seconds();
+    const int first = steps;
+    do step();
+    while (wall_seconds() - wall_start < long_enough);
+    cpu.push_back((cpu_seconds() - cpu_start) / (steps - first));
+    wall.push_back((wall_seconds() - wall_start) / (steps - first));
+  }
 };
 
-Contestant contestant(const std::string& path, int threads) {
-  Contestant c;
-  c.name = path;
-  c.simulation = Simulation::create(read_problem(path, {"time.steps=1000000000"}), threads);
-  const SimulationSize size = c.simulation->size();
-  c.particles = static_cast<double>(size.particles);
-  c.memory_bytes = size.memory_bytes;
+/// name: 2d-linear-usf-128, of 128 cells along each side.
+std::unique_ptr<bench::Kernel> bare_kernel(const std::string& name, int threads) {
+  static const std::regex form("([23])d-(linear|gimp)-(usf|usavg)-([0-9]+)");
+  std::smatch part;
+  if (!std::regex_match(name, part, form)) {
+    throw std::invalid_argument("bare:" + name +
+                                " is no bare kernel; bare:2d-linear-usf-128 is, as are 3d, gimp, usavg and other numbers of cells");
+  }
+  return (part[1] == "2" ? bench::make_block2d : bench::make_block3d)(
+      std::stoi(part[4]), part[3] == "usf" ? bench::Scheme::usf : bench::Scheme::usavg,
+      part[2] == "linear" ? bench::Stencil::linear : bench::Stencil::gimp, threads);
+}
+
+Contestant contestant(const std::string& name, int threads) {
+  Contestant c{name};
+  if (name.rfind("bare:", 0) == 0) {
+    c.bare = bare_kernel(name.substr(5), threads);
+    c.particles = static_cast<double>(c.bare->particles());
+  } else {
+    c.simulation = Simulation::create(read_problem(name, {"time.steps=1000000000"}), threads);
+    c.particles = static_cast<double>(c.simulation->size().particles);
+  }
   return c;
 }
 
-double median(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
-  return v[v.size() / 2];
+/// Value below which a part of the values lies.
+double quantile(std::vector<double> v, double part) {
+  const auto at = v.begin() + std::lround(part * static_cast<double>(v.size() - 1));
+  std::nth_element(v.begin(), at, v.end());
+  return *at;
 }
 
-double least(const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); }
+/// Cost of a particle-step by that of the first contestant in the same round of turns: median and quartiles. CPU time for one thread; several wait.
+nlohmann::ordered_json to_first(const Contestant& c, const Contestant& first, int threads) {
+  std::vector<double> ratio;
+  for (std::size_t k = 0; k < c.cpu.size(); ++k) {
+    const double time = threads == 1 ? c.cpu[k] / first.cpu[k] : c.wall[k] / first.wall[k];
+    ratio.push_back(time * first.particles / c.particles);
+  }
+  return {{"median", quantile(ratio, .5)}, {"quartiles", {quantile(ratio, .25), quantile(ratio, .75)}}};
+}
 
-int measure(const std::vector<std::string>& names, int threads, double seconds) {
+nlohmann::ordered_json results(const Contestant& c, const Contestant& first, int threads) {
+  const double to_ns = 1e9 / c.particles;
+  nlohmann::ordered_json out = {{"name", c.name},
+                                {"threads", threads},
+                                {"particles", c.particles},
+                                {"turns", c.cpu.size()},
+                                {"steps", c.steps},
+                                {"cpu_ns", quantile(c.cpu, .5) * to_ns},
+                                {"cpu_ns_least", quantile(c.cpu, 0) * to_ns},
+                                {"wall_ns", quantile(c.wall, .5) * to_ns},
+                                {"to_first", to_first(c, first, threads)}};
+  if (!c.simulation) return out;
+  out["engine_bytes"] = c.simulation->size().memory_bytes / c.particles;
+  for (const PhaseTime& phase : c.simulation->phases()) {
+    double earlier = 0;
+    for (const PhaseTime& p : c.before) earlier += p.name == phase.name ? p.seconds : 0;
+    out["phases_ns"][phase.name] = (phase.seconds - earlier) / c.steps * to_ns;
+  }
+  return out;
+}
+
+int measure(const std::vector<std::string>& names, int threads, double seconds, int skip) {
   std::vector<Contestant> list;
   for (const std::string& name : names) list.push_back(contestant(name, threads));
-  std::vector<std::vector<PhaseTime>> before;
   for (Contestant& c : list) {
-    for (int k = 0; k < 2; ++k) c.simulation->step(HUGE_VAL);  // sorts the particles and touches the memory
-    before.push_back(c.simulation->phases());
+    for (int k = 0; k < skip; ++k) c.step();
+    if (c.simulation) c.before = c.simulation->phases();
+    c.steps = 0;
   }
   const double end = wall_seconds() + seconds * static_cast<double>(list.size());
   do {
-    for (Contestant& c : list) {
-      const double cpu = cpu_seconds(), wall = wall_seconds();
-      c.simulation->step(HUGE_VAL);
-      c.cpu.push_back(cpu_seconds() - cpu);
-      c.wall.push_back(wall_seconds() - wall);
-    }
+    for (Contestant& c : list) c.take_turn();
   } while (wall_seconds() < end || list[0].cpu.size() < 5);
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const Contestant& c = list[i];
-    const double to_ns = 1e9 / c.particles;
-    nlohmann::ordered_json phases = nlohmann::ordered_json::object();
-    for (const PhaseTime& phase : c.simulation->phases()) {
-      double earlier = 0;
-      for (const PhaseTime& p : before[i]) earlier += p.name == phase.name ? p.seconds : 0;
-      phases[phase.name] = (phase.seconds - earlier) / static_cast<double>(c.wall.size()) * to_ns;
-    }
-    out.push_back({{"name", c.name},
-                   {"threads", threads},
-                   {"particles", c.particles},
-                   {"steps", c.cpu.size()},
-                   {"cpu_ns", median(c.cpu) * to_ns},
-                   {"cpu_ns_least", least(c.cpu) * to_ns},
-                   {"wall_ns", median(c.wall) * to_ns},
-                   {"engine_bytes", c.memory_bytes / c.particles},
-                   {"phases_ns", phases}});
-  }
+  for (const Contestant& c : list) out.push_back(results(c, list[0], threads));
   std::cout << out.dump(1) << "\n";
   return 0;
 }
@@ -100,7 +147,7 @@ int measure(const std::vector<std::string>& names, int threads, double seconds) 
 }  // namespace crampon
 
 int main(int argc, char** argv) {
-  int threads = 1;
+  int threads = 1, skip = 2;
   double seconds = 2;
   std::vector<std::string> names;
   try {
@@ -110,12 +157,15 @@ int main(int argc, char** argv) {
         threads = std::stoi(argv[++i]);
       } else if (word == "--seconds" && i + 1 < argc) {
         seconds = std::stod(argv[++i]);
+      } else if (word == "--skip" && i + 1 < argc) {
+        skip = std::stoi(argv[++i]);
       } else {
         names.push_back(word);
       }
     }
-    if (names.empty()) throw std::invalid_argument("no case; step_cost [--threads N] [--seconds S] CASE.toml ...");
-    return crampon::measure(names, threads, seconds);
+    if (names.empty())
+      throw std::invalid_argument("no case; step_cost [--threads N] [--seconds S] [--skip STEPS] CASE.toml|bare:KERNEL ...");
+    return crampon::measure(names, threads, seconds, skip);
   } catch (const std::exception& error) {
     fmt::print(stderr, "step_cost: {}\n", error.what());
     return 2;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing for a purpose, and only those. Says nothing and touches no network when none is.
-#   cmake/install_packages.sh build [test] [lint] [tsan] [count]
+#   cmake/install_packages.sh build [test] [lint] [tsan] [count] [bench]
 set -euo pipefail
 
 build=(g++ cmake ninja-build ccache pkg-config libtomlplusplus-dev libfmt-dev libcli11-dev libmuparser-dev libudunits2-dev
@@ -9,6 +9,7 @@ test=(libgtest-dev librapidcheck-dev libboost-dev python3 python3-numpy)
 lint=(clang-format-14 clang-tidy-14 git)
 tsan=(clang-14 libomp-14-dev)
 count=(valgrind python3)
+bench=(libbenchmark-dev python3)
 
 wanted=()
 for purpose in "$@"; do
@@ -18,7 +19,8 @@ for purpose in "$@"; do
     lint) wanted+=("${lint[@]}") ;;
     tsan) wanted+=("${tsan[@]}") ;;
     count) wanted+=("${count[@]}") ;;
-    *) echo "install_packages.sh: unknown purpose '$purpose'; known: build test lint tsan count" >&2; exit 2 ;;
+    bench) wanted+=("${bench[@]}") ;;
+    *) echo "install_packages.sh: unknown purpose '$purpose'; known: build test lint tsan count bench" >&2; exit 2 ;;
   esac
 done
 
