@@ -1,7 +1,7 @@
 #include "crampon/step/reorder.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <map>
 
 #include "crampon/core/error.hpp"
 #include "crampon/core/parallel.hpp"
@@ -12,69 +12,170 @@ namespace crampon {
 
 namespace {
 
-/// Sort key of a particle. The bin orders particles inside a run by base node.
+/// Where a particle belongs: its block, and its rank there by material, then base node (a pack's particles are to share theirs), then id.
 struct Place {
-  std::uint64_t block;
-  std::uint32_t material, bin, id, slot;
-  friend bool operator<(const Place& a, const Place& b) {
-    if (a.block != b.block) return a.block < b.block;
-    if (a.material != b.material) return a.material < b.material;
-    if (a.bin != b.bin) return a.bin < b.bin;
-    return a.id < b.id;
-  }
+  std::int64_t block;
+  std::uint64_t rank;
 };
+constexpr std::int64_t no_place = -1;  ///< block of padding
+constexpr int rank_bits_of_node = 9, rank_bits_of_id = 32;
+
+std::uint32_t material_of(const Place& place) { return static_cast<std::uint32_t>(place.rank >> (rank_bits_of_node + rank_bits_of_id)); }
 
 template <int Dim, class Shape>
-Place place_of(const State<Dim>& state, const Model<Dim>& model, std::size_t slot, std::uint32_t material) {
-  const Vec<Dim> x = state.particles.position(slot);
-  Place place{};
+Place place_of(const Particles<Dim>& particles, const Grid<Dim>& grid, std::size_t slot, std::uint32_t material) {
+  static_assert(block_nodes<Dim> <= 1 << rank_bits_of_node);
+  if (particles.is_padding(slot)) return {no_place, 0};
+  const Vec<Dim> x = particles.position(slot);
   IndexVector<Dim> block{};
-  int bin = 0;
+  std::uint64_t node = 0;
   for (int k = Dim - 1; k >= 0; --k) {
-    const int cell = static_cast<int>(std::floor((x[k] - model.grid.origin[k]) * model.grid.inverse_cell[k] + Shape::bin_shift));
+    const int cell = static_cast<int>(std::floor((x[k] - grid.origin[k]) * grid.inverse_cell[k] + Shape::bin_shift));
     block[k] = Grid<Dim>::block_of(cell);
-    bin = bin * block_side + (cell - Grid<Dim>::first_node(block[k]));
+    node = node * block_side + static_cast<std::uint64_t>(cell - Grid<Dim>::first_node(block[k]));
   }
-  place.block = static_cast<std::uint64_t>(model.grid.block_number(block));
-  place.material = material;
-  place.bin = static_cast<std::uint32_t>(bin);
-  place.id = state.particles.id[slot];
-  place.slot = static_cast<std::uint32_t>(slot);
-  return place;
+  return {grid.block_number(block), (std::uint64_t{material} << rank_bits_of_node | node) << rank_bits_of_id | particles.id[slot]};
 }
 
-/// Every particle's material, from the runs it stood in.
-template <int Dim>
-std::vector<std::uint32_t> materials_by_slot(const State<Dim>& state) {
-  std::vector<std::uint32_t> material(state.particles.size(), 0);
-  for (const Run& run : state.blocks.runs) {
-    std::fill(material.begin() + run.first_pack * lanes, material.begin() + run.end_pack * lanes, run.material);
-  }
-  return material;
-}
+/// Where everything goes.
+struct Order {
+  std::vector<std::int64_t> occupied;  ///< numbers of the blocks with particles, ascending
+  std::vector<std::size_t> first_run;  ///< [occupied + 1]
+  std::vector<Run> runs;
+  std::vector<std::uint32_t> source;  ///< [particle in its new order]: slot where it stands now
+  std::vector<std::size_t> first;     ///< [run + 1]: of source
 
-template <int Dim>
-void copy_particle(const Particles<Dim>& from, std::size_t a, Particles<Dim>& to, std::size_t b) {
-  for (int r = 0; r < motion_packs<Dim>; ++r) to.motion[b * motion_packs<Dim> + r] = from.motion[a * motion_packs<Dim> + r];
-  const auto lane = [](auto& array, std::size_t p, int width, int c) -> double& {
-    return reinterpret_cast<double*>(&array[p / lanes * width + c])[p % lanes];
+  std::size_t packs() const { return runs.empty() ? 0 : runs.back().end_pack; }
+};
+
+/// Slots by block: counted, then dealt out. Sets occupied and source; inside a block slots stay in their order. Returns where each block begins.
+std::vector<std::size_t> deal_to_blocks(const std::vector<Place>& places, Order& order) {
+  std::map<std::int64_t, std::size_t> of_block;  // how many; then where the next one goes
+  const auto for_each = [&](auto f) {
+    std::int64_t block = no_place;
+    std::size_t* entry = nullptr;
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      if (places[p].block == no_place) continue;
+      if (places[p].block != block) entry = &of_block[block = places[p].block];  // neighbours mostly stand in the same
+      f(static_cast<std::uint32_t>(p), *entry);
+    }
   };
-  auto& source = const_cast<Particles<Dim>&>(from);
-  for (int c = 0; c < 2; ++c) lane(to.mass_volume, b, 2, c) = lane(source.mass_volume, a, 2, c);
-  for (int c = 0; c < stress_size<Dim>; ++c) lane(to.stress, b, stress_size<Dim>, c) = lane(source.stress, a, stress_size<Dim>, c);
-  for (int c = 0; c < to.history_size; ++c) lane(to.history, b, to.history_size, c) = lane(source.history, a, to.history_size, c);
-  to.original[b] = from.original[a];
-  if (to.contact.size() > 0) to.contact[b] = from.contact[a];
-  to.id[b] = from.id[a];
-  to.body[b] = from.body[a];
+  for_each([](std::uint32_t, std::size_t& count) { ++count; });
+  std::vector<std::size_t> begin;
+  std::size_t total = 0;
+  for (auto& [block, count] : of_block) {
+    order.occupied.push_back(block);
+    begin.push_back(total);
+    total += std::exchange(count, total);
+  }
+  begin.push_back(total);
+  order.source.resize(total);
+  for_each([&](std::uint32_t p, std::size_t& next) { order.source[next++] = p; });
+  return begin;
+}
+
+template <int Dim, class Shape>
+Order find_order(const State<Dim>& state, const Model<Dim>& model) {
+  std::vector<Place> places(state.particles.size());
+  parallel_for(state.blocks.runs.size(), model.threads, [&](std::size_t r) {
+    const Run& run = state.blocks.runs[r];
+    for (std::size_t p = run.first_pack * lanes; p < run.end_pack * lanes; ++p) {
+      places[p] = place_of<Dim, Shape>(state.particles, model.grid, p, run.material);
+    }
+  });
+  Order order;
+  const std::vector<std::size_t> begin = deal_to_blocks(places, order);
+  const auto at = order.source.begin();
+  parallel_for(order.occupied.size(), model.threads, [&](std::size_t b) {
+    const auto before = [&](std::uint32_t p, std::uint32_t q) { return places[p].rank < places[q].rank; };
+    const auto first = at + static_cast<std::ptrdiff_t>(begin[b]), end = at + static_cast<std::ptrdiff_t>(begin[b + 1]);
+    if (!std::is_sorted(first, end, before)) std::sort(first, end, before);
+  });
+  std::uint32_t pack = 0;
+  for (std::size_t b = 0; b < order.occupied.size(); ++b) {
+    order.first_run.push_back(order.runs.size());
+    for (std::size_t i = begin[b]; i < begin[b + 1];) {
+      const std::uint32_t material = material_of(places[order.source[i]]);
+      const auto end = std::partition_point(at + static_cast<std::ptrdiff_t>(i), at + static_cast<std::ptrdiff_t>(begin[b + 1]),
+                                            [&](std::uint32_t p) { return material_of(places[p]) == material; });
+      order.first.push_back(i);
+      const std::size_t count = static_cast<std::size_t>(end - at) - i;
+      const auto packs = static_cast<std::uint32_t>((count + lanes - 1) / lanes);
+      order.runs.push_back({pack, pack + packs, material});
+      pack += packs;
+      i += count;
+    }
+  }
+  order.first_run.push_back(order.runs.size());
+  order.first.push_back(order.source.size());
+  return order;
+}
+
+/// f(pack, slots its particles come from) for all packs in their new order. The last particle of a run fills up its last pack.
+template <class F>
+void for_packs(const Order& order, int threads, F f) {
+  parallel_for(order.runs.size(), threads, [&](std::size_t r) {
+    std::size_t i = order.first[r];
+    for (std::size_t k = order.runs[r].first_pack; k < order.runs[r].end_pack; ++k) {
+      std::size_t from[lanes];
+      for (std::size_t& slot : from) {
+        slot = order.source[i];
+        if (i + 1 < order.first[r + 1]) ++i;
+      }
+      f(k, from);
+    }
+  });
+}
+
+/// Brings an array with `width` records per particle into the new order. One array after the other: little memory is taken twice.
+template <class Record>
+void move_records(AlignedArray<Record>& array, std::size_t width, const Order& order, int threads) {
+  AlignedArray<Record> fresh(order.packs() * lanes * width);
+  for_packs(order, threads, [&](std::size_t k, const std::size_t(&from)[lanes]) {
+    Record* to = &fresh[k * lanes * width];
+    for (const std::size_t slot : from) to = std::copy_n(&array[slot * width], width, to);
+  });
+  array = std::move(fresh);
+}
+
+/// The same for `width` packs per pack of particles.
+void move_lanes(AlignedArray<Pack>& array, std::size_t width, const Order& order, int threads) {
+  AlignedArray<Pack> fresh(order.packs() * width);
+  for_packs(order, threads, [&](std::size_t k, const std::size_t(&from)[lanes]) {
+    for (std::size_t c = 0; c < width; ++c) {
+      Pack& to = fresh[k * width + c];
+      for (std::size_t l = 0; l < lanes; ++l) to[l] = array[from[l] / lanes * width + c][from[l] % lanes];
+    }
+  });
+  array = std::move(fresh);
+}
+
+template <int Dim>
+void move_particles(Particles<Dim>& particles, const Order& order, int threads) {
+  move_records(particles.motion, motion_packs<Dim>, order, threads);
+  move_lanes(particles.mass_volume, 2, order, threads);
+  move_lanes(particles.stress, stress_size<Dim>, order, threads);
+  move_lanes(particles.history, static_cast<std::size_t>(particles.history_size), order, threads);
+  move_records(particles.original, 1, order, threads);
+  if (particles.contact.size() > 0) move_records(particles.contact, 1, order, threads);
+  move_records(particles.id, 1, order, threads);
+  move_records(particles.body, 1, order, threads);
+  particles.packs = order.packs();
+  for (std::size_t r = 0; r < order.runs.size(); ++r) {
+    const std::size_t real = order.runs[r].first_pack * lanes + (order.first[r + 1] - order.first[r]);
+    for (std::size_t p = real; p < order.runs[r].end_pack * lanes; ++p) {
+      particles.id[p] = padding_id;
+      for (std::size_t c = 0; c < 2; ++c) particles.mass_volume[p / lanes * 2 + c][p % lanes] = 0.;
+    }
+  }
 }
 
 /// Blocks with particles and all around them, in the order of their numbers.
 template <int Dim>
-void build_blocks(Blocks<Dim>& blocks, const Grid<Dim>& grid, const std::vector<std::uint64_t>& occupied) {
+void build_blocks(Blocks<Dim>& blocks, const Grid<Dim>& grid, const std::vector<std::int64_t>& occupied) {
   std::vector<std::int64_t> numbers;
-  for (const std::uint64_t n : occupied) {
-    const auto b = grid.block_coordinates(static_cast<std::int64_t>(n));
+  for (const std::int64_t n : occupied) {
+    const auto b = grid.block_coordinates(n);
     for (int o = 0; o < neighbour_count<Dim>; ++o) {
       const auto step = unflatten<Dim>(o, 3);
       IndexVector<Dim> c = b;
@@ -171,56 +272,16 @@ void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
 
 template <int Dim, class Shape>
 void reorder(State<Dim>& state, const Model<Dim>& model) {
-  Particles<Dim>& old = state.particles;
-  const auto material = materials_by_slot(state);
-  std::vector<Place> order;
-  order.reserve(old.size());
-  for (std::size_t p = 0; p < old.size(); ++p) {
-    if (!old.is_padding(p)) order.push_back(place_of<Dim, Shape>(state, model, p, material[p]));
+  Order order = find_order<Dim, Shape>(state, model);
+  move_particles(state.particles, order, model.threads);
+  state.particle_count = order.source.size();
+  state.blocks.runs = std::move(order.runs);
+  build_blocks(state.blocks, model.grid, order.occupied);
+  for (std::size_t i = 0; i < order.occupied.size(); ++i) {
+    Block<Dim>& b = state.blocks.list[state.blocks.of_number[static_cast<std::size_t>(order.occupied[i])]];
+    b.first_run = static_cast<std::uint32_t>(order.first_run[i]);
+    b.end_run = static_cast<std::uint32_t>(order.first_run[i + 1]);
   }
-  if (!std::is_sorted(order.begin(), order.end())) std::sort(order.begin(), order.end());
-
-  std::vector<Run> runs;
-  std::vector<std::uint64_t> occupied;
-  std::vector<std::pair<std::size_t, std::size_t>> spans;  // of `order`, per run
-  std::vector<std::size_t> first_run_of;                   // per occupied block
-  std::uint32_t pack = 0;
-  for (std::size_t i = 0; i < order.size();) {
-    std::size_t j = i;
-    while (j < order.size() && order[j].block == order[i].block && order[j].material == order[i].material) ++j;
-    if (occupied.empty() || occupied.back() != order[i].block) {
-      occupied.push_back(order[i].block);
-      first_run_of.push_back(runs.size());
-    }
-    const auto packs = static_cast<std::uint32_t>((j - i + lanes - 1) / lanes);
-    runs.push_back({pack, pack + packs, order[i].material});
-    spans.emplace_back(i, j);
-    pack += packs;
-    i = j;
-  }
-  first_run_of.push_back(runs.size());
-
-  Particles<Dim> fresh;
-  fresh.allocate(pack, old.history_size, old.contact.size() > 0);
-  parallel_for(runs.size(), model.threads, [&](std::size_t r) {
-    std::size_t slot = std::size_t{runs[r].first_pack} * lanes;
-    const std::size_t end = std::size_t{runs[r].end_pack} * lanes;
-    for (std::size_t i = spans[r].first; i < spans[r].second; ++i) copy_particle(old, order[i].slot, fresh, slot++);
-    for (; slot < end; ++slot) {  // padding: a copy of the run's last particle without mass and volume
-      copy_particle(fresh, slot - 1, fresh, slot);
-      fresh.id[slot] = padding_id;
-      for (int c = 0; c < 2; ++c) reinterpret_cast<double*>(&fresh.mass_volume[slot / lanes * 2 + c])[slot % lanes] = 0.;
-    }
-  });
-  old = std::move(fresh);
-  state.blocks.runs = std::move(runs);
-  build_blocks(state.blocks, model.grid, occupied);
-  for (std::size_t i = 0; i < occupied.size(); ++i) {
-    Block<Dim>& b = state.blocks.list[state.blocks.of_number[occupied[i]]];
-    b.first_run = static_cast<std::uint32_t>(first_run_of[i]);
-    b.end_run = static_cast<std::uint32_t>(first_run_of[i + 1]);
-  }
-  state.particle_count = order.size();
   rebuild_references(state, model);
   state.nodes.layers.assign(state.blocks.size(), {});
   parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) {
