@@ -21,5 +21,5 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # What a program that links the library needs; the program itself needs only what SHLIBDEPS finds.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, libfmt-dev, libtomlplusplus-dev, libmuparser-dev, libpng-dev, zlib1g-dev, libcairo2-dev, libudunits2-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, libfmt-dev, libtomlplusplus-dev, libmuparser-dev, libpng-dev, libdeflate-dev, libcairo2-dev, libudunits2-dev, nlohmann-json3-dev")
 include(CPack)

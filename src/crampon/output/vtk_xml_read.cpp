@@ -1,10 +1,12 @@
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <memory>
+#include <new>
 #include <optional>
 #include <stdexcept>
 
@@ -103,17 +105,19 @@ std::string decompress(std::string_view appended, std::size_t at) {
   if (blocks > appended.size() / 8) damaged("a data array claims more blocks than the file can hold");
   std::size_t body = at + 24 + 8 * blocks;
   std::string raw;
+  const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> unpack(libdeflate_alloc_decompressor(),
+                                                                                            libdeflate_free_decompressor);
+  if (!unpack) throw std::bad_alloc();
   for (std::uint64_t b = 0; b < blocks; ++b) {
     const std::uint64_t packed = read_word(appended, at + 24 + 8 * b);
     const std::uint64_t size = b + 1 == blocks && last != 0 ? last : block;
     if (body > appended.size() || packed > appended.size() - body) damaged("a data block lies outside the file");
-    if (size / 1100 > packed + 1) damaged("a data block claims more than zlib can pack");  // deflate packs at most 1032 to 1
+    if (size / 1100 > packed + 1) damaged("a data block claims more than can be packed");  // deflate packs at most 1032 to 1
     const std::size_t old = raw.size();
     raw.resize(old + size);
-    uLongf room = static_cast<uLongf>(size);
-    const int code = uncompress(reinterpret_cast<Bytef*>(raw.data() + old), &room, reinterpret_cast<const Bytef*>(appended.data() + body),
-                                static_cast<uLong>(packed));
-    if (code != Z_OK || room != size) damaged("a data block does not decompress");
+    std::size_t found = 0;
+    const auto code = libdeflate_zlib_decompress(unpack.get(), appended.data() + body, packed, raw.data() + old, size, &found);
+    if (code != LIBDEFLATE_SUCCESS || found != size) damaged("a data block does not decompress");
     body += packed;
   }
   return raw;
@@ -201,7 +205,7 @@ std::string_view checked(std::string_view bytes) {
   std::uint32_t stored = 0;
   const auto [stop, code] = std::from_chars(digits.data(), digits.data() + 8, stored, 16);
   bytes.remove_suffix(length);
-  const uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  const std::uint32_t crc = libdeflate_crc32(0, bytes.data(), bytes.size());
   if (code != std::errc() || stop != digits.data() + 8 || stored != crc) damaged("its checksum does not fit its content");
   return bytes;
 }
