@@ -95,11 +95,12 @@ class ShapeFunctions : public testing::Test {
     }
     const int lane = std::uniform_int_distribution<int>(0, lanes - 1)(random_);
     for (int k = 0; k < dim; ++k) packs[k][lane] = x[k];
-    Stencil<dim, Shape> stencil;
-    stencil.compute(packs, grid_, first_node_, half_size_);
+    StencilFactors<dim, Shape> factors;
+    factors.compute(packs, grid_, first_node_, half_size_);
+    const Stencil<dim, Shape> stencil(factors);
     Weights<dim> out;
     for (int n = 0; n < Stencil<dim, Shape>::count; ++n) {
-      const int at = stencil.base[lane] + T::steps[n];
+      const int at = factors.base[lane] + T::steps[n];
       EXPECT_GE(at, 0);
       EXPECT_LT(at, T::nodes);
       IndexVector<dim> node = unflatten<dim>(at, T::side);

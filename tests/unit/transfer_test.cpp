@@ -1,4 +1,4 @@
-/// Sums axis by axis against sums over nodes, with the weights of each node (shape/separable.hpp).
+/// What a pack of particles exchanges with nodes (step/packs.hpp, shape/separable.hpp) against sums over nodes, one pair after another.
 
 #include <gtest/gtest.h>
 
@@ -8,106 +8,157 @@
 
 #include "crampon/shape/bspline.hpp"
 #include "crampon/shape/gimp.hpp"
-#include "crampon/shape/separable.hpp"
+#include "crampon/shape/linear.hpp"
+#include "crampon/step/packs.hpp"
 
 namespace crampon::test {
 namespace {
 
-template <class Shape>
-class SeparableSumsOf : public testing::Test {};
-using Shapes = testing::Types<GimpShape, BsplineShape>;
-TYPED_TEST_SUITE(SeparableSumsOf, Shapes);
+template <int D, class S>
+struct Case {
+  static constexpr int dim = D;
+  using Shape = S;
+};
 
-/// A tile of random values, and four particles about one node or about four.
-template <class Shape>
+template <class C>
+class TransferOf : public testing::Test {};
+using Cases = testing::Types<Case<2, LinearShape>, Case<2, GimpShape>, Case<2, BsplineShape>, Case<3, LinearShape>, Case<3, GimpShape>,
+                             Case<3, BsplineShape>>;
+TYPED_TEST_SUITE(TransferOf, Cases);
+
+enum class Pairs { own_nodes, told };  ///< by targets
+
+/// A tile of random records, and four particles about one node or about four.
+template <int Dim, class Shape>
 struct Sample {
-  using T = Tile<3, Shape>;
-  std::vector<Pack> tile;
-  Stencil<3, Shape> stencil;
-  Pack record[lanes];
-  Pack columns[3][lanes];
+  using T = Tile<Dim, Shape>;
+  std::vector<Pack> records;
+  std::vector<NodalVector<Dim>> vectors;
+  StencilFactors<Dim, Shape> factors;
+  std::vector<PairTarget> own;  ///< the targets that all pairs have anyway
+  Pack record[lanes], stress[stress_size<Dim>], volume;
 
-  Sample(unsigned seed, bool together) : tile(T::nodes) {
+  Sample(unsigned seed, bool together) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> draw(-1, 1);
     const auto pack = [&] { return Pack{draw(random), draw(random), draw(random), draw(random)}; };
-    for (Pack& q : tile) q = pack();
+    for (int i = 0; i < T::nodes; ++i) {
+      records.push_back(pack());
+      vectors.push_back(leading<Dim>(pack()));
+    }
     for (Pack& q : record) q = pack();
-    for (auto& column : columns) {
-      for (Pack& q : column) q = pack();
+    for (Pack& q : stress) q = pack();
+    volume = pack();
+    Grid<Dim> grid;
+    HalfSize<Dim> half_size;
+    Pack x[Dim];
+    for (int k = 0; k < Dim; ++k) {
+      grid.cell[k] = std::ldexp(0.5, k);
+      grid.inverse_cell[k] = std::ldexp(2., -k);
+      half_size[k] = k == 2 ? 0.125 : 0.25;
+      const double in_cell = Shape::width == 2 ? 0.5 : 0;  // about the middle of a cell, or about a node
+      for (int l = 0; l < lanes; ++l) x[k][l] = grid.cell[k] * ((together ? 3 : 2 + l) + in_cell + 0.49 * draw(random));
     }
-    Grid<3> grid;
-    grid.cell = {{0.5, 1, 2}};
-    grid.inverse_cell = {{2, 1, 0.5}};
-    Pack x[3];
-    for (int k = 0; k < 3; ++k) {
-      for (int l = 0; l < lanes; ++l) x[k][l] = grid.cell[k] * ((together ? 3 : 2 + l) + 0.49 * draw(random));
+    factors.compute(x, grid, {}, half_size);
+    for (int l = 0; l < lanes; ++l) {
+      for (const int step : T::steps) own.push_back({static_cast<std::uint16_t>(factors.base[l] + step), 0, 0});
     }
-    stencil.compute(x, grid, {0, 0, 0}, {0.25, 0.25, 0.125});
   }
 
-  /// f(tile index, S, G, lane) for all pairs.
+  /// f(tile node, S, G, lane) for all pairs.
   template <class F>
   void for_pairs(F f) const {
     for (int l = 0; l < lanes; ++l) {
       for (int n = 0; n < T::stencil; ++n) {
-        Vec<3> G;
-        for (int k = 0; k < 3; ++k) G[k] = stencil.slope(n, k, l);
-        f(stencil.base[l] + T::steps[n], stencil.weight(n, l), G, l);
+        Vec<Dim> G;
+        for (int k = 0; k < Dim; ++k) G[k] = factors.slope(n, k, l);
+        f(static_cast<std::size_t>(factors.base[l] + T::steps[n]), factors.weight(n, l), G, l);
       }
+    }
+  }
+  /// -V0 tau, component c k of lane l.
+  double force(int c, int k, int l) const {
+    static constexpr int plane[2][2] = {{0, 2}, {2, 1}}, space[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    if constexpr (Dim == 2) {
+      return -volume[l] * stress[plane[c][k]][l];
+    } else {
+      return -volume[l] * stress[space[c][k]][l];
     }
   }
 };
 
-double difference(Pack a, Pack b) {
+template <class V>
+double difference(V a, V b, int components) {
   double worst = 0;
-  for (int c = 0; c < 4; ++c) worst = std::fmax(worst, std::fabs(a[c] - b[c]));
+  for (int c = 0; c < components; ++c) worst = std::fmax(worst, std::fabs(a[c] - b[c]));
   return worst;
 }
 
-/// Sums of 4 x 27 products of numbers up to 1 (weights: 4 per cell).
+/// Sums of at most 4 x 27 products of numbers up to 1 (weights) or 4 (slopes per metre).
 constexpr double round_off = 1e-13;
 
-TYPED_TEST(SeparableSumsOf, AreThoseOverNodes) {
-  for (unsigned seed = 0; seed < 200; ++seed) {
-    const bool together = seed % 2 == 0;
-    const Sample<TypeParam> c(seed, together);
-    ASSERT_EQ(c.stencil.same_base, together);
-    const SeparableSums<TypeParam> sums(c.stencil);
-    std::vector<Pack> values = c.tile, slopes = c.tile, expected_values = c.tile, expected_slopes = c.tile;
-    Pack at[lanes] = {}, gradient[lanes][3] = {};
-    c.for_pairs([&](int node, double S, const Vec<3>& G, int l) {
-      expected_values[static_cast<std::size_t>(node)] += c.record[l] * S;
-      at[l] += c.tile[static_cast<std::size_t>(node)] * S;
-      for (int k = 0; k < 3; ++k) {
-        expected_slopes[static_cast<std::size_t>(node)] += c.columns[k][l] * G[k];
-        gradient[l][k] += c.tile[static_cast<std::size_t>(node)] * G[k];
+template <int Dim, class Shape>
+void expect_sums_over_nodes(unsigned seed, bool together, Pairs pairs) {
+  const Sample<Dim, Shape> c(seed, together);
+  ASSERT_EQ(c.factors.same_base, together);
+  const Stencil<Dim, Shape> stencil(c.factors);
+  const PairTarget* targets = pairs == Pairs::told ? c.own.data() : nullptr;
+  auto records = c.records, expected_records = c.records;
+  auto vectors = c.vectors, expected_vectors = c.vectors;
+  double expected_L[Dim][Dim][lanes] = {};
+  c.for_pairs([&](std::size_t node, double S, const Vec<Dim>& G, int l) {
+    expected_records[node] += c.record[l] * S;
+    for (int d = 0; d < Dim; ++d) {
+      for (int k = 0; k < Dim; ++k) {
+        expected_vectors[node][d] += c.force(d, k, l) * G[k];
+        expected_L[d][k][l] += c.vectors[node][d] * G[k];
       }
-    });
-    if (together) {
-      sums.scatter(0, lanes, c.record, values.data());
-      sums.scatter_slopes(0, lanes, c.columns, slopes.data());
-      for (int d = 0; d < 4; ++d) {
-        Pack g[3];
-        sums.gradient([&](int node) { return splat(c.tile[static_cast<std::size_t>(c.stencil.base[0] + node)][d]); }, g);
-        for (int l = 0; l < lanes; ++l) {
-          for (int k = 0; k < 3; ++k) ASSERT_NEAR(g[k][l], gradient[l][k][d], round_off);
-        }
+    }
+  });
+  scatter<Dim, Shape>(stencil, targets, c.record, records.data());
+  scatter_force<Dim, Shape>(stencil, targets, c.volume, c.stress, vectors.data());
+  Pack L[Dim * Dim];
+  gradient<Dim, Shape>(stencil, targets, c.vectors.data(), L);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    ASSERT_LT(difference(records[i], expected_records[i], 4), round_off);
+    ASSERT_LT(difference(vectors[i], expected_vectors[i], Dim), round_off);
+    if constexpr (Dim == 3) {
+      ASSERT_EQ(vectors[i][3], 0);
+    }
+  }
+  for (int d = 0; d < Dim; ++d) {
+    for (int k = 0; k < Dim; ++k) {
+      for (int l = 0; l < lanes; ++l) ASSERT_NEAR(L[d * Dim + k][l], expected_L[d][k][l], round_off);
+    }
+  }
+}
+
+TYPED_TEST(TransferOf, AreSumsOverNodes) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    for (const bool together : {true, false}) {
+      for (const Pairs pairs : {Pairs::own_nodes, Pairs::told}) {
+        expect_sums_over_nodes<TypeParam::dim, typename TypeParam::Shape>(seed, together, pairs);
+        if (this->HasFatalFailure()) FAIL() << "seed " << seed << (together ? ", together" : ", apart");
       }
-    } else {
-      for (int l = 0; l < lanes; ++l) sums.scatter(l, l + 1, c.record, values.data());
-      for (int l = 0; l < lanes; ++l) sums.scatter_slopes(l, l + 1, c.columns, slopes.data());
     }
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      ASSERT_LT(difference(values[i], expected_values[i]), round_off);
-      ASSERT_LT(difference(slopes[i], expected_slopes[i]), round_off);
-    }
+  }
+}
+
+template <class Shape>
+class SeparableSumsOf : public testing::Test {};
+using Shapes = testing::Types<LinearShape, GimpShape, BsplineShape>;
+TYPED_TEST_SUITE(SeparableSumsOf, Shapes);
+
+TYPED_TEST(SeparableSumsOf, Interpolate) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const Sample<3, TypeParam> c(seed, seed % 2 == 0);
+    const Stencil<3, TypeParam> stencil(c.factors);
+    Pack expected[lanes] = {};
+    c.for_pairs([&](std::size_t node, double S, const Vec<3>&, int l) { expected[l] += c.records[node] * S; });
     for (int l = 0; l < lanes; ++l) {
-      const auto value = [&](int node) { return c.tile[static_cast<std::size_t>(c.stencil.base[l] + node)]; };
-      Pack g[3];
-      sums.gradient(l, value, g);
-      for (int k = 0; k < 3; ++k) ASSERT_LT(difference(g[k], gradient[l][k]), round_off);
-      ASSERT_LT(difference(sums.interpolate(l, value), at[l]), round_off);
+      const Pack* lowest = &c.records[static_cast<std::size_t>(c.factors.base[l])];
+      ASSERT_LT(difference(SeparableSums<TypeParam>(stencil).interpolate(l, [&](int node) { return lowest[node]; }), expected[l], 4),
+                round_off);
     }
   }
 }

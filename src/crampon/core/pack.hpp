@@ -98,6 +98,18 @@ inline void transpose(Pack& a, Pack& b, Pack& c, Pack& d) {
   d = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
 }
 
+/// {sum of a, sum of b} and {sum of a, sum of b, sum of c, 0} over lanes: 0 + 1 and 2 + 3 first.
+inline Pair lane_sums(Pack a, Pack b) {
+  const Pack h = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  return __builtin_shufflevector(h, h, 0, 1) + __builtin_shufflevector(h, h, 2, 3);
+}
+inline Pack lane_sums(Pack a, Pack b, Pack c) {
+  const Pack zero = splat(0.);
+  const Pack h = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Pack g = __builtin_shufflevector(c, zero, 0, 4, 2, 6) + __builtin_shufflevector(c, zero, 1, 5, 3, 7);
+  return __builtin_shufflevector(h, g, 0, 1, 4, 5) + __builtin_shufflevector(h, g, 2, 3, 6, 7);
+}
+
 /// The first components of a record as a nodal vector.
 template <int Dim>
 inline NodalVector<Dim> leading(Pack record) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Sums over the 27 nodes of a stencil in space, axis by axis: S_ip = N_x N_y N_z (N03 Eq. 24). A node costs one or two operations, its weights
+/// Sums over the nodes of a stencil in space, axis by axis: S_ip = N_x N_y N_z (N03 Eq. 24). A node costs one or two operations, its weights
 /// none, and the factors of a particle stay in the first-level cache. Scatters keep a plane of nodes in registers over particles that share it.
 
 #include "crampon/shape/stencil.hpp"
@@ -9,14 +9,14 @@ namespace crampon {
 template <class Shape>
 class SeparableSums {
   using T = Tile<3, Shape>;
-  static constexpr int width = 3, plane = width * width;
+  static constexpr int width = Shape::width, plane = width * width;
 
  public:
   explicit SeparableSums(const Stencil<3, Shape>& s) : s_(s) {}
 
   /// Adds S_ip * record of lanes [l0, l1), which share their nodes, to every node.
   void scatter(int l0, int l1, const Pack* record, Pack* tiles) const {
-    Pack* lowest = tiles + s_.base[l0];
+    Pack* lowest = tiles + s_.of.base[l0];
     for (int k = 0; k < width; ++k) {
       Pack sum[plane];
       read(lowest, k, sum);
@@ -33,26 +33,40 @@ class SeparableSums {
     }
   }
 
-  /// Adds sum_k t[k][l] G_ip,k of lanes [l0, l1), which share their nodes, to every node.
-  void scatter_slopes(int l0, int l1, const Pack (&t)[3][lanes], Pack* tiles) const {
-    Pack* lowest = tiles + s_.base[l0];
+  /// Adds sum_k t[k] G_ip,k of lane l to every node.
+  void scatter_slopes(int l, const Pack* t, Pack* tiles) const {
+    Pack* lowest = tiles + s_.of.base[l];
     for (int k = 0; k < width; ++k) {
-      Pack sum[plane];
-      read(lowest, k, sum);
-      for (int l = l0; l < l1; ++l) {
-        const Pack x = factor(2, k, l) * t[0][l], y = factor(2, k, l) * t[1][l], z = slope_factor(2, k, l) * t[2][l];
+      const Pack x = factor(2, k, l) * t[0], y = factor(2, k, l) * t[1], z = slope_factor(2, k, l) * t[2];
 #pragma GCC unroll 3
-        for (int j = 0; j < width; ++j) {
-          const Pack slope = factor(1, j, l) * x, value = fused(factor(1, j, l), z, slope_factor(1, j, l) * y);
+      for (int j = 0; j < width; ++j) {
+        const Pack slope = factor(1, j, l) * x, value = fused(factor(1, j, l), z, slope_factor(1, j, l) * y);
 #pragma GCC unroll 3
-          for (int i = 0; i < width; ++i) {
-            Pack& f = sum[j * width + i];
-            f = fused(factor(0, i, l), value, f);
-            f = fused(slope_factor(0, i, l), slope, f);
-          }
+        for (int i = 0; i < width; ++i) {
+          Pack& f = lowest[step(i, j, k)];
+          f = fused(slope_factor(0, i, l), slope, fused(factor(0, i, l), value, f));
         }
       }
-      write(sum, k, lowest);
+    }
+  }
+
+  /// Adds sum_k t_ck G_ip,k of all lanes, which share their nodes, to component c of every node; lanes over particles. t: xx, yy, zz, xy, yz, xz.
+  void scatter_slopes(const Pack* t, Pack* tiles) const {
+    const auto& [N, dN] = s_.of.factors;
+    Pack* lowest = tiles + s_.of.base[0];
+#pragma GCC unroll 3
+    for (int k = 0; k < width; ++k) {
+#pragma GCC unroll 3
+      for (int j = 0; j < width; ++j) {
+        const Pack yz = N[1][j] * N[2][k], y_slope = dN[1][j] * N[2][k], z_slope = N[1][j] * dN[2][k];
+        const auto across = [&](int y, int z) { return fused(t[y], y_slope, t[z] * z_slope); };
+        const Pack along[3] = {t[0] * yz, t[3] * yz, t[5] * yz}, rest[3] = {across(3, 5), across(1, 4), across(4, 2)};
+#pragma GCC unroll 3
+        for (int i = 0; i < width; ++i) {
+          const auto sum = [&](int c) { return fused(dN[0][i], along[c], N[0][i] * rest[c]); };
+          lowest[step(i, j, k)] += lane_sums(sum(0), sum(1), sum(2));
+        }
+      }
     }
   }
 
@@ -83,13 +97,14 @@ class SeparableSums {
   /// The same in every lane, for lanes that share their nodes.
   template <class Value>
   void gradient(Value value, Pack* g) const {
-    slopes_of([&](int axis, int n) { return s_.weights.N[axis][n]; }, [&](int axis, int n) { return s_.weights.dN[axis][n]; }, value, g);
+    slopes_of([&](int axis, int n) { return s_.of.factors.N[axis][n]; }, [&](int axis, int n) { return s_.of.factors.dN[axis][n]; }, value,
+              g);
   }
 
  private:
   static constexpr int step(int i, int j, int k) { return (k * T::side + j) * T::side + i; }
-  Pack factor(int axis, int n, int l) const { return splat_lane(s_.weights.N[axis][n], l); }
-  Pack slope_factor(int axis, int n, int l) const { return splat_lane(s_.weights.dN[axis][n], l); }
+  Pack factor(int axis, int n, int l) const { return splat_lane(s_.of.factors.N[axis][n], l); }
+  Pack slope_factor(int axis, int n, int l) const { return splat_lane(s_.of.factors.dN[axis][n], l); }
 
   template <class Factor, class Slope, class Value>
   static void slopes_of(Factor N, Slope dN, Value value, Pack* g) {

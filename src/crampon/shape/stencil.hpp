@@ -54,7 +54,7 @@ struct NodeWeights {
   Pack S[count];
   Pack G[count][Dim];  ///< 1/m
 
-  void multiply(const AxisFactors<Dim, Width>& f) {
+  explicit NodeWeights(const AxisFactors<Dim, Width>& f) {
     for (int n = 0; n < count; ++n) {
       const auto i = unflatten<Dim>(n, Width);
       if constexpr (Dim == 2) {
@@ -72,36 +72,13 @@ struct NodeWeights {
   }
 };
 
+/// Where the stencils of four particles lie, and the factors of their S_ip and G_ip.
 template <int Dim, class Shape>
-struct Stencil {
-  static constexpr int count = Tile<Dim, Shape>::stencil;
-  /// With 27 nodes, sums go axis by axis (shape/separable.hpp) and products for each node are not formed.
-  static constexpr bool separable = Dim == 3 && Shape::width == 3;
-  std::conditional_t<separable, AxisFactors<Dim, Shape::width>, NodeWeights<Dim, Shape::width>> weights;
+struct StencilFactors {
+  AxisFactors<Dim, Shape::width> factors;
   alignas(32) int base[lanes];  ///< index of the lowest node in the tile's layers: layer * nodes + tile index
   bool same_base;               ///< all four particles share it
   int layer = 0;                ///< of pairs that cross nothing
-
-  /// S_ip of lane l at stencil node n.
-  double weight(int n, int l) const {
-    if constexpr (separable) {
-      const auto i = unflatten<Dim>(n, Shape::width);
-      return weights.N[0][i[0]][l] * weights.N[1][i[1]][l] * weights.N[2][i[2]][l];
-    } else {
-      return weights.S[n][l];
-    }
-  }
-  /// G_ip of lane l at stencil node n along axis k, 1/m.
-  double slope(int n, int k, int l) const {
-    if constexpr (separable) {
-      const auto i = unflatten<Dim>(n, Shape::width);
-      double product = 1;
-      for (int d = 0; d < Dim; ++d) product *= (d == k ? weights.dN : weights.N)[d][i[d]][l];
-      return product;
-    } else {
-      return weights.G[n][k][l];
-    }
-  }
 
   /// Tile index of the lowest node of lane l.
   int lowest(int l) const { return base[l] - layer * Tile<Dim, Shape>::nodes; }
@@ -111,17 +88,21 @@ struct Stencil {
     for (int& b : base) b += to * Tile<Dim, Shape>::nodes;
   }
 
+  /// S_ip of lane l at stencil node n.
+  double weight(int n, int l) const { return product(n, l, -1); }
+  /// G_ip of lane l at stencil node n along axis k, 1/m.
+  double slope(int n, int k, int l) const { return product(n, l, k); }
+
   /// x: positions, one Pack per axis, m; first_node: grid index of the block's first node.
   void compute(const Pack* x, const Grid<Dim>& grid, const IndexVector<Dim>& first_node, const HalfSize<Dim>& half_size) {
     using T = Tile<Dim, Shape>;
     layer = 0;
-    AxisFactors<Dim, Shape::width> f;
     Pack index = splat(0.);
     double stride = 1;
     for (int k = 0; k < Dim; ++k) {
       const Pack g = (x[k] - grid.origin[k]) * grid.inverse_cell[k] + Shape::bin_shift;
       const Pack bin = lane_floor(g);
-      Shape::weights(g - bin, half_size[k], grid.inverse_cell[k], f.N[k], f.dN[k]);
+      Shape::weights(g - bin, half_size[k], grid.inverse_cell[k], factors.N[k], factors.dN[k]);
       // bin: cell (width 2) or nearest node (width 3); the lowest node is one below the nearest.
       const double lowest = T::offset - first_node[k] - (Shape::width == 3 ? 1 : 0);
       index = fused(bin + lowest, splat(stride), index);
@@ -129,10 +110,45 @@ struct Stencil {
     }
     for (int l = 0; l < lanes; ++l) base[l] = static_cast<int>(index[l]);
     same_base = base[0] == base[1] && base[0] == base[2] && base[0] == base[3];
+  }
+
+ private:
+  /// The factors of lane l at node n, with the derivative along one axis or none.
+  double product(int n, int l, int derived) const {
+    const auto i = unflatten<Dim>(n, Shape::width);
+    double value = (derived == 0 ? factors.dN : factors.N)[0][i[0]][l];
+    for (int k = 1; k < Dim; ++k) value *= (derived == k ? factors.dN : factors.N)[k][i[k]][l];
+    return value;
+  }
+};
+
+/// The same with S_ip and G_ip ready for every node. Refers to the factors.
+template <int Dim, class Shape>
+struct Stencil {
+  using Factors = StencilFactors<Dim, Shape>;
+  static constexpr int count = Tile<Dim, Shape>::stencil;
+  /// In space sums go axis by axis (shape/separable.hpp), and products for each node are not formed.
+  static constexpr bool separable = Dim == 3;
+  struct Nothing {
+    explicit Nothing(const AxisFactors<Dim, Shape::width>&) {}
+  };
+  const Factors& of;
+  [[no_unique_address]] std::conditional_t<separable, Nothing, NodeWeights<Dim, Shape::width>> weights;
+
+  explicit Stencil(const Factors& f) : of(f), weights(f.factors) {}
+
+  double weight(int n, int l) const {
     if constexpr (separable) {
-      weights = f;
+      return of.weight(n, l);
     } else {
-      weights.multiply(f);
+      return weights.S[n][l];
+    }
+  }
+  double slope(int n, int k, int l) const {
+    if constexpr (separable) {
+      return of.slope(n, k, l);
+    } else {
+      return weights.G[n][k][l];
     }
   }
 };

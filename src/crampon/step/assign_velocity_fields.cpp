@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
 #include "crampon/core/error.hpp"
 #include "crampon/core/parallel.hpp"
@@ -89,7 +90,7 @@ class BlockAssignment {
     const std::uint32_t end_pack = state_.blocks.runs[block_.end_run - 1].end_pack;
     layers_.special.assign(end_pack - first_pack, -1);
     std::int32_t count = 0;
-    Stencil<Dim, Shape> stencil;
+    StencilFactors<Dim, Shape> stencil;
     const Run* run = &state_.blocks.runs[block_.first_run];
     for (std::uint32_t k = first_pack; k < end_pack; ++k) {
       while (k >= run->end_pack) ++run;
@@ -129,7 +130,7 @@ class BlockAssignment {
     return false;
   }
 
-  void assign(const Stencil<Dim, Shape>& stencil, const Pack* x, int l, bool padding) {
+  void assign(const StencilFactors<Dim, Shape>& stencil, const Pack* x, int l, bool padding) {
     const auto first = block_.first_node();
     Vec<Dim> x_p;
     for (int k = 0; k < Dim; ++k) x_p[k] = x[k][l];
@@ -170,7 +171,7 @@ class BlockAssignment {
     }
   }
 
-  void cross(const Stencil<Dim, Shape>& stencil, const Pack* x, int l, const Vec<2>& x_p, const std::array<Vec<2>, T::stencil>& x_i,
+  void cross(const StencilFactors<Dim, Shape>& stencil, const Pack* x, int l, const Vec<2>& x_p, const std::array<Vec<2>, T::stencil>& x_i,
              const std::array<PairTarget, T::stencil>& target, std::array<Signature, T::stencil>& signature, bool padding) {
     const auto cell = cell_of(x, l);
     const auto facets = view_.bins.facets_of_cell(cell[0], cell[1]);
@@ -191,13 +192,13 @@ class BlockAssignment {
   }
 
   void add_crossing(CrackId c, int node, const Crossing& crossing) {
-    std::size_t k = 0;
-    while (k < cracks_.size() && cracks_[k] != c) ++k;
-    if (k == cracks_.size()) {
-      cracks_.push_back(c);
-      sums_.emplace_back(T::nodes, CrossingSums{});
+    std::vector<CrackId>& cracks = layers_.tile_cracks;
+    const auto at = static_cast<std::size_t>(std::find(cracks.begin(), cracks.end(), c) - cracks.begin());
+    if (at == cracks.size()) {
+      cracks.push_back(c);
+      crossing_.resize(cracks.size() * T::nodes, CrossingSums{});
     }
-    CrossingSums& sum = sums_[k][static_cast<std::size_t>(node)];
+    CrossingSums& sum = crossing_[at * T::nodes + static_cast<std::size_t>(node)];
     sum.r[0] += Pack{crossing.normal_sum[0], crossing.normal_sum[1], double(crossing.side()), 1.};
     sum.r[1] += Pack{crossing.original_sum[0], crossing.original_sum[1], 0., 0.};
   }
@@ -216,29 +217,39 @@ class BlockAssignment {
 
   /// Layers in the order of their fields and signatures, cracks in the order of their ids: no trace of the order of discovery.
   void sort_layers() {
-    std::vector<std::size_t> order(layers_.tile.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return layers_.tile[a] < layers_.tile[b]; });
-    std::vector<Layer> tile;
-    std::vector<TileBox<Dim>> boxes;
-    std::vector<std::uint8_t> rank(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      rank[order[i]] = static_cast<std::uint8_t>(i);
-      tile.push_back(layers_.tile[order[i]]);
-      boxes.push_back(layers_.tile_box[order[i]]);
+    if (!std::is_sorted(layers_.tile.begin(), layers_.tile.end())) {
+      const std::vector<std::size_t> order = order_of(layers_.tile);
+      std::vector<Layer> tile;
+      std::vector<TileBox<Dim>> boxes;
+      std::vector<std::uint8_t> rank(order.size());
+      for (std::size_t i = 0; i < order.size(); ++i) {
+        rank[order[i]] = static_cast<std::uint8_t>(i);
+        tile.push_back(layers_.tile[order[i]]);
+        boxes.push_back(layers_.tile_box[order[i]]);
+      }
+      layers_.tile = std::move(tile);
+      layers_.tile_box = std::move(boxes);
+      for (PairTarget& t : layers_.targets) t.layer = rank[t.layer];
+      for (std::uint8_t& l : layers_.run_layer) l = rank[l];
     }
-    layers_.tile = std::move(tile);
-    layers_.tile_box = std::move(boxes);
-    for (PairTarget& t : layers_.targets) t.layer = rank[t.layer];
-    for (std::uint8_t& l : layers_.run_layer) l = rank[l];
+    if (!std::is_sorted(layers_.tile_cracks.begin(), layers_.tile_cracks.end())) {
+      std::vector<CrossingSums> sums;
+      for (const std::size_t i : order_of(layers_.tile_cracks)) {
+        sums.insert(sums.end(), crossing_.begin() + static_cast<std::ptrdiff_t>(i * T::nodes),
+                    crossing_.begin() + static_cast<std::ptrdiff_t>((i + 1) * T::nodes));
+      }
+      crossing_ = std::move(sums);
+      std::sort(layers_.tile_cracks.begin(), layers_.tile_cracks.end());
+    }
+  }
 
-    std::vector<std::size_t> by_id(cracks_.size());
-    for (std::size_t i = 0; i < by_id.size(); ++i) by_id[i] = i;
-    std::sort(by_id.begin(), by_id.end(), [&](std::size_t a, std::size_t b) { return cracks_[a] < cracks_[b]; });
-    for (const std::size_t i : by_id) {
-      layers_.tile_cracks.push_back(cracks_[i]);
-      crossing_.insert(crossing_.end(), sums_[i].begin(), sums_[i].end());
-    }
+  /// Indices of a list in ascending order of its items.
+  template <class Item>
+  static std::vector<std::size_t> order_of(const std::vector<Item>& items) {
+    std::vector<std::size_t> order(items.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return items[a] < items[b]; });
+    return order;
   }
 
   const State<Dim>& state_;
@@ -246,12 +257,10 @@ class BlockAssignment {
   const CrackView& view_;
   const Block<Dim>& block_;
   BlockLayers<Dim>& layers_;
-  std::vector<CrossingSums>& crossing_;
-  std::vector<CrackId> cracks_;
-  std::vector<std::vector<CrossingSums>> sums_;
-  std::uint16_t field_ = 0;     ///< of the particles at hand
-  bool sees_cracks_ = true;     ///< ... else it is one, whatever cracks part the material beside it
-  std::uint8_t own_layer_ = 0;  ///< ... and the layer of their pairs that cross nothing
+  std::vector<CrossingSums>& crossing_;  ///< [crack of the tile][tile node]
+  std::uint16_t field_ = 0;              ///< of the particles at hand
+  bool sees_cracks_ = true;              ///< ... else it is one, whatever cracks part the material beside it
+  std::uint8_t own_layer_ = 0;           ///< ... and the layer of their pairs that cross nothing
   bool fits_ = true;
 };
 

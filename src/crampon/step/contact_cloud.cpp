@@ -30,8 +30,8 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
                               for (int n = 0; n < T::stencil; ++n) {
                                 if (stencil.weight(n, l) == 0) continue;
                                 const PairTarget t = targets ? targets[l * T::stencil + n]
-                                                             : PairTarget{static_cast<std::uint16_t>(stencil.lowest(l) + T::steps[n]),
-                                                                          static_cast<std::uint8_t>(stencil.layer), 0};
+                                                             : PairTarget{static_cast<std::uint16_t>(stencil.of.lowest(l) + T::steps[n]),
+                                                                          static_cast<std::uint8_t>(stencil.of.layer), 0};
                                 IndexVector<Dim> node = unflatten<Dim>(t.node, T::side);
                                 int local = 0;
                                 bool inside = true;
@@ -60,7 +60,7 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
                                   const double x_i = model.grid.node_coordinate(k, node[k]);
                                   if (t.flip >> k & 1u) {
                                     // The mirror stands midway between the node and the one beyond it for which the pair was.
-                                    const int beyond = unflatten<Dim>(stencil.lowest(l) + T::steps[n], T::side)[k] + first[k] - T::offset;
+                                    const int beyond = unflatten<Dim>(stencil.of.lowest(l) + T::steps[n], T::side)[k] + first[k] - T::offset;
                                     point.x[k] = model.grid.node_coordinate(k, beyond) - point.x[k];
                                     for (auto& column : point.F) column[k] = -column[k];
                                     point.F[k] = -point.F[k];

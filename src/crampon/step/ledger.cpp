@@ -33,7 +33,7 @@ void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
           for (int l = 0; l < lanes; ++l) {
             const double V_p = state.particles.volume(std::size_t{pack} * lanes + l) / model.materials[run.material].thickness;
             for (int n = 0; n < T::stencil; ++n) {
-              auto node = unflatten<Dim>(targets ? targets[l * T::stencil + n].node : stencil.lowest(l) + T::steps[n], T::side);
+              auto node = unflatten<Dim>(targets ? targets[l * T::stencil + n].node : stencil.of.lowest(l) + T::steps[n], T::side);
               for (int k = 0; k < Dim; ++k) node[k] += first[k] - T::offset;
               state.initial_volume[model.grid.node_number(node)] += V_p * stencil.weight(n, l);
             }

@@ -25,12 +25,14 @@ class BlockStencils {
     layer_ = layers_.run_layer.empty() ? 0 : layers_.run_layer[r - block_.first_run];
     return run;
   }
-  /// Computes the stencil of a pack of the run; returns where its pairs go, or null.
-  [[gnu::always_inline]] const PairTarget* find(std::uint32_t pack, Stencil<Dim, Shape>& stencil) const {
+  [[gnu::always_inline]] void compute(std::uint32_t pack, StencilFactors<Dim, Shape>& stencil) const {
     Pack x[Dim];
     state_.particles.pack_positions(pack, x);
     stencil.compute(x, model_.grid, first_node_, *half_size_);
     if (layer_ > 0) stencil.move_to_layer(layer_);
+  }
+  /// Where the pairs of a pack of the run go, or null: all to their own node in the stencil's layer.
+  [[gnu::always_inline]] const PairTarget* targets(std::uint32_t pack) const {
     const std::int32_t special = layers_.special.empty() ? -1 : layers_.special[pack - first_pack_];
     return special < 0 ? nullptr : &layers_.targets[static_cast<std::size_t>(special) * lanes * Stencil<Dim, Shape>::count];
   }
@@ -46,28 +48,31 @@ class BlockStencils {
   int layer_ = 0;
 };
 
-/// f(pack, stencil, targets, run): targets is null for packs whose pairs all go to their own node in the stencil's layer, else
-/// [lane][stencil node] says where each pair goes. Each stencil is computed into what place() refers to.
-template <int Dim, class Shape, class Place, class F>
-[[gnu::always_inline]] inline void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, Place&& place, F&& f) {
+/// f(run, first pack, end pack, factors) for a few packs of one run at a time. Factors of several packs come first: their chains of dependent
+/// operations overlap.
+template <int Batch, int Dim, class Shape, class F>
+[[gnu::always_inline]] inline void for_batches(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
   const Block<Dim>& block = state.blocks.list[b];
   BlockStencils<Dim, Shape> stencils(state, model, b);
+  StencilFactors<Dim, Shape> factors[Batch];
   for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
     const Run& run = stencils.enter_run(r);
-    for (std::uint32_t k = run.first_pack; k < run.end_pack; ++k) {
-      Stencil<Dim, Shape>& stencil = place();
-      const PairTarget* targets = stencils.find(k, stencil);
-      f(k, stencil, targets, run);
+    for (std::uint32_t first = run.first_pack; first < run.end_pack; first += Batch) {
+      const std::uint32_t end = std::min(first + Batch, run.end_pack);
+      for (std::uint32_t k = first; k < end; ++k) stencils.compute(k, factors[k - first]);
+      f(stencils, run, first, end, factors);
     }
   }
 }
 
-/// The same, one stencil after another in one place.
+/// f(pack, stencil, targets, run): targets is null for packs whose pairs all go to their own node in the stencil's layer, else
+/// [lane][stencil node] says where each pair goes.
 template <int Dim, class Shape, class F>
 void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
-  Stencil<Dim, Shape> stencil;
-  for_packs<Dim, Shape>(
-      state, model, b, [&]() -> Stencil<Dim, Shape>& { return stencil; }, f);
+  for_batches<Dim == 2 ? 8 : 1, Dim, Shape>(
+      state, model, b, [&](const auto& stencils, const Run& run, std::uint32_t first, std::uint32_t end, const auto* factors) {
+        for (std::uint32_t k = first; k < end; ++k) f(k, Stencil<Dim, Shape>(factors[k - first]), stencils.targets(k), run);
+      });
 }
 
 /// The same for some packs of the block, ascending.
@@ -75,11 +80,12 @@ template <int Dim, class Shape, class F>
 void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<std::uint32_t>& packs, F&& f) {
   std::uint32_t r = state.blocks.list[b].first_run;
   BlockStencils<Dim, Shape> stencils(state, model, b);
-  Stencil<Dim, Shape> stencil;
+  StencilFactors<Dim, Shape> factors;
   for (const std::uint32_t pack : packs) {
     while (pack >= state.blocks.runs[r].end_pack) ++r;
     const Run& run = stencils.enter_run(r);
-    f(pack, stencil, stencils.find(pack, stencil), run);
+    stencils.compute(pack, factors);
+    f(pack, Stencil<Dim, Shape>(factors), stencils.targets(pack), run);
   }
 }
 
@@ -87,14 +93,14 @@ void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, 
 template <int Dim, class Shape, class F>
 void for_loaded(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
   BlockStencils<Dim, Shape> stencils(state, model, b);
-  Stencil<Dim, Shape> stencil;
+  StencilFactors<Dim, Shape> factors;
   for (const LoadedParticle<Dim>& loaded : state.scratch[b].loaded) {
     const std::uint32_t pack = loaded.slot / lanes;
     std::uint32_t r = state.blocks.list[b].first_run;
     while (pack >= state.blocks.runs[r].end_pack) ++r;
     stencils.enter_run(r);
-    const PairTarget* targets = stencils.find(pack, stencil);
-    f(loaded, stencil, static_cast<int>(loaded.slot % lanes), targets);
+    stencils.compute(pack, factors);
+    f(loaded, Stencil<Dim, Shape>(factors), static_cast<int>(loaded.slot % lanes), stencils.targets(pack));
   }
 }
 
@@ -116,7 +122,7 @@ inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, con
   if constexpr (Stencil<Dim, Shape>::separable) {
     if (!targets) {
       const SeparableSums<Shape> sums(s);
-      if (s.same_base) return sums.scatter(0, lanes, record, tiles);
+      if (s.of.same_base) return sums.scatter(0, lanes, record, tiles);
       for (int l = 0; l < lanes; ++l) sums.scatter(l, l + 1, record, tiles);
       return;
     }
@@ -129,8 +135,8 @@ inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, con
         q = fused(splat(s.weight(n, l)), flipped(record[l], t.flip), q);
       }
     }
-  } else if (s.same_base) {
-    Pack* lowest = tiles + s.base[0];
+  } else if (s.of.same_base) {
+    Pack* lowest = tiles + s.of.base[0];
     for (int n = 0; n < T::stencil; ++n) {
       Pack& q = lowest[T::steps[n]];
       Pack sum = q;
@@ -139,7 +145,7 @@ inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, con
     }
   } else {
     for (int l = 0; l < lanes; ++l) {
-      Pack* lowest = tiles + s.base[l];
+      Pack* lowest = tiles + s.of.base[l];
       for (int n = 0; n < T::stencil; ++n) lowest[T::steps[n]] = fused(splat(s.weight(n, l)), record[l], lowest[T::steps[n]]);
     }
   }
@@ -155,7 +161,7 @@ inline void for_stencil(const Stencil<Dim, Shape>& s, const PairTarget* targets,
       f(tiles[t.layer * T::nodes + t.node], n, t.flip);
     }
   } else {
-    const Value* lowest = tiles + s.base[l];
+    const Value* lowest = tiles + s.of.base[l];
     for (int n = 0; n < T::stencil; ++n) f(lowest[T::steps[n]], n, 0u);
   }
 }
@@ -167,25 +173,25 @@ inline void gradient(const Stencil<Dim, Shape>& s, const PairTarget* targets, co
   if constexpr (Stencil<Dim, Shape>::separable) {
     if (!targets) {
       const SeparableSums<Shape> sums(s);
-      const NodalVector<Dim>* lowest = velocity + s.base[0];
-      if (s.same_base) {
+      const NodalVector<Dim>* lowest = velocity + s.of.base[0];
+      if (s.of.same_base) {
         for (int d = 0; d < 3; ++d) sums.gradient([&](int node) { return splat_lane(lowest[node], d); }, L + d * 3);
         return;
       }
       Pack g[lanes][3];
       for (int l = 0; l < lanes; ++l)
         sums.gradient(
-            l, [&](int node) { return velocity[s.base[l] + node]; }, g[l]);
+            l, [&](int node) { return velocity[s.of.base[l] + node]; }, g[l]);
       for (int k = 0; k < 3; ++k) {
         transpose(g[0][k], g[1][k], g[2][k], g[3][k]);
         for (int d = 0; d < 3; ++d) L[d * 3 + k] = g[d][k];
       }
       return;
     }
-  } else if (!targets && s.same_base) {
+  } else if (!targets && s.of.same_base) {
     // Four particles share each node: lanes over particles.
     for (int e = 0; e < Dim * Dim; ++e) L[e] = splat(0.);
-    const NodalVector<Dim>* lowest = velocity + s.base[0];
+    const NodalVector<Dim>* lowest = velocity + s.of.base[0];
     for (int n = 0; n < T::stencil; ++n) {
       for (int d = 0; d < Dim; ++d) {
         const Pack v = splat(lowest[T::steps[n]][d]);
@@ -208,64 +214,66 @@ inline void gradient(const Stencil<Dim, Shape>& s, const PairTarget* targets, co
   }
 }
 
+/// scatter_force() for four particles that share their nodes: lanes over particles, summed up for each node.
+template <int Dim, class Shape>
+inline void scatter_shared_force(const Stencil<Dim, Shape>& s, Pack volume, const Pack* stress, NodalVector<Dim>* tiles) {
+  using T = Tile<Dim, Shape>;
+  Pack t[stress_size<Dim>];  // -V0 tau
+  for (int c = 0; c < stress_size<Dim>; ++c) t[c] = -(volume * stress[c]);
+  if constexpr (Dim == 2) {
+    NodalVector<Dim>* lowest = tiles + s.of.base[0];
+    for (int n = 0; n < T::stencil; ++n) {
+      const Pack* G = s.weights.G[n];
+      lowest[T::steps[n]] += lane_sums(fused(t[0], G[0], t[2] * G[1]), fused(t[2], G[0], t[1] * G[1]));
+    }
+  } else {
+    SeparableSums<Shape>(s).scatter_slopes(t, tiles);
+  }
+}
+
 /// Adds -V0 tau . G_ip to every node (N03 Eq. 28; f = -m (sigma/rho0) . G for its material).
 template <int Dim, class Shape>
 inline void scatter_force(const Stencil<Dim, Shape>& s, const PairTarget* targets, Pack volume, const Pack* stress,
                           NodalVector<Dim>* tiles) {
   using T = Tile<Dim, Shape>;
-  // minus_tau[k][l]: column k of -V0 tau of lane l; what follows it is zero in 3D, and not looked at in 2D.
-  Pack minus_tau[Dim][lanes];
-  const auto column_of = [&](int k, int l) {
-    if constexpr (Dim == 2) {
-      return leading<Dim>(minus_tau[k][l]);
-    } else {
-      return minus_tau[k][l];
-    }
-  };
+  if (!targets && s.of.same_base) return scatter_shared_force(s, volume, stress, tiles);
+  Pack minus_tau[lanes][Dim];  // columns of -V0 tau; what follows a vector is zero in 3D, and not looked at in 2D
   if constexpr (Dim == 2) {
     Pack xx = -(volume * stress[0]), xy = -(volume * stress[2]), yy = -(volume * stress[1]), again = xy;
     transpose(xx, xy, again, yy);
     const Pack row[lanes] = {xx, xy, again, yy};  // {xx, xy, xy, yy} of lane l
-    for (int l = 0; l < lanes; ++l) minus_tau[0][l] = row[l], minus_tau[1][l] = __builtin_shufflevector(row[l], row[l], 2, 3, 0, 1);
+    for (int l = 0; l < lanes; ++l) minus_tau[l][0] = row[l], minus_tau[l][1] = __builtin_shufflevector(row[l], row[l], 2, 3, 0, 1);
   } else {
     static constexpr int column[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     for (int k = 0; k < 3; ++k) {
       Pack a = -(volume * stress[column[k][0]]), b = -(volume * stress[column[k][1]]), c = -(volume * stress[column[k][2]]), d = splat(0.);
       transpose(a, b, c, d);
-      minus_tau[k][0] = a, minus_tau[k][1] = b, minus_tau[k][2] = c, minus_tau[k][3] = d;
+      minus_tau[0][k] = a, minus_tau[1][k] = b, minus_tau[2][k] = c, minus_tau[3][k] = d;
     }
-  }
-  if constexpr (Stencil<Dim, Shape>::separable) {
-    if (!targets) {
-      const SeparableSums<Shape> sums(s);
-      if (s.same_base) return sums.scatter_slopes(0, lanes, minus_tau, tiles);
-      for (int l = 0; l < lanes; ++l) sums.scatter_slopes(l, l + 1, minus_tau, tiles);
-      return;
-    }
-  }
-  if (!targets && s.same_base) {
-    NodalVector<Dim>* lowest = tiles + s.base[0];
-    for (int n = 0; n < T::stencil; ++n) {
-      NodalVector<Dim> f = lowest[T::steps[n]];
-      for (int l = 0; l < lanes; ++l) {
-        for (int k = 0; k < Dim; ++k) f = fused(column_of(k, l), splat_as<NodalVector<Dim>>(s.slope(n, k, l)), f);
-      }
-      lowest[T::steps[n]] = f;
-    }
-    return;
   }
   for (int l = 0; l < lanes; ++l) {
+    if constexpr (Stencil<Dim, Shape>::separable) {
+      if (!targets) {
+        SeparableSums<Shape>(s).scatter_slopes(l, minus_tau[l], tiles);
+        continue;
+      }
+    }
     NodalVector<Dim> t_k[Dim];
-    for (int k = 0; k < Dim; ++k) t_k[k] = column_of(k, l);
+    for (int k = 0; k < Dim; ++k) {
+      if constexpr (Dim == 2) {
+        t_k[k] = leading<Dim>(minus_tau[l][k]);
+      } else {
+        t_k[k] = minus_tau[l][k];
+      }
+    }
     for (int n = 0; n < T::stencil; ++n) {
       if (targets) {
         const PairTarget t = targets[l * T::stencil + n];
         NodalVector<Dim> f = t_k[0] * splat_as<NodalVector<Dim>>(s.slope(n, 0, l));
         for (int k = 1; k < Dim; ++k) f = fused(t_k[k], splat_as<NodalVector<Dim>>(s.slope(n, k, l)), f);
-        NodalVector<Dim>& q = tiles[t.layer * T::nodes + t.node];
-        q += flipped(f, t.flip);
+        tiles[t.layer * T::nodes + t.node] += flipped(f, t.flip);
       } else {
-        NodalVector<Dim>& q = tiles[s.base[l] + T::steps[n]];
+        NodalVector<Dim>& q = tiles[s.of.base[l] + T::steps[n]];
         NodalVector<Dim> f = q;
         for (int k = 0; k < Dim; ++k) f = fused(t_k[k], splat_as<NodalVector<Dim>>(s.slope(n, k, l)), f);
         q = f;

@@ -73,7 +73,7 @@ class SharedNodes {
   /// Does a particle of the pack have a pair with such a node?
   bool reached(const Stencil<Dim, Shape>& stencil, const PairTarget* targets) const {
     for (int l = 0; l < lanes; ++l) {
-      if (!targets && reaching_[stencil.lowest(l)]) return true;
+      if (!targets && reaching_[stencil.of.lowest(l)]) return true;
       for (int n = 0; targets && n < T::stencil; ++n) {
         if (shared_[targets[l * T::stencil + n].node]) return true;
       }
@@ -126,11 +126,11 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
           const double m_p = particles.mass(p);
           if (m_p == 0) continue;
           const Vec<Dim> x_p = particles.position(p), X_p = particles.original[p];
-          const auto lowest = unflatten<Dim>(stencil.lowest(l), T::side);
+          const auto lowest = unflatten<Dim>(stencil.of.lowest(l), T::side);
           for (int n = 0; n < T::stencil; ++n) {
             const PairTarget t = targets ? targets[l * T::stencil + n]
-                                         : PairTarget{static_cast<std::uint16_t>(stencil.lowest(l) + T::steps[n]),
-                                                      static_cast<std::uint8_t>(stencil.layer), 0};
+                                         : PairTarget{static_cast<std::uint16_t>(stencil.of.lowest(l) + T::steps[n]),
+                                                      static_cast<std::uint8_t>(stencil.of.layer), 0};
             if (!shared.at(t.node)) continue;
             IndexVector<Dim> node = unflatten<Dim>(n, Shape::width);
             Vec<Dim> G;
@@ -159,7 +159,7 @@ void project_loads(const State<Dim>& state, const Model<Dim>& model, std::size_t
         for (int k = 0; k < Dim; ++k) f_p[k] = share[k] * load_values[loaded.load][k];
         for (int n = 0; n < T::stencil; ++n) {
           const int node =
-              targets ? targets[l * T::stencil + n].layer * T::nodes + targets[l * T::stencil + n].node : stencil.base[l] + T::steps[n];
+              targets ? targets[l * T::stencil + n].layer * T::nodes + targets[l * T::stencil + n].node : stencil.of.base[l] + T::steps[n];
           const unsigned flip = targets ? targets[l * T::stencil + n].flip : 0u;
           tiles[node] = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), flipped(f_p, flip), tiles[node]);
         }
@@ -183,7 +183,7 @@ void project_rigid_motion(const State<Dim>& state, const Model<Dim>& model, std:
                             for (int k = 0; k < Dim; ++k) f_p[k] = f[k];
                             for (int n = 0; n < T::stencil; ++n) {
                               const PairTarget* t = targets ? &targets[l * T::stencil + n] : nullptr;
-                              NodalVector<Dim>& q = tiles[t ? t->layer * T::nodes + t->node : stencil.base[l] + T::steps[n]];
+                              NodalVector<Dim>& q = tiles[t ? t->layer * T::nodes + t->node : stencil.of.base[l] + T::steps[n]];
                               q = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), flipped(f_p, t ? t->flip : 0u), q);
                             }
                           }

@@ -17,7 +17,7 @@ inline MotionRecord<Dim> interpolate(const Stencil<Dim, Shape>& s, const PairTar
   if constexpr (Stencil<Dim, Shape>::separable) {
     if (!targets) {
       const SeparableSums<Shape> sums(s);
-      const MotionRecord<Dim>* lowest = motion + s.base[l];
+      const MotionRecord<Dim>* lowest = motion + s.of.base[l];
       for (int r = 0; r < 2; ++r) sum.r[r] = sums.interpolate(l, [&](int node) { return lowest[node].r[r]; });
       return sum;
     }
