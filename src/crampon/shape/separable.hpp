@@ -52,7 +52,7 @@ class SeparableSums {
 
   /// Adds sum_k t_ck G_ip,k of all lanes, which share their nodes, to component c of every node; lanes over particles. t: xx, yy, zz, xy, yz, xz.
   void scatter_slopes(const Pack* t, Pack* tiles) const {
-    const auto& [N, dN] = s_.of.factors;
+    const auto &N = s_.of.factors.N, &dN = s_.of.factors.dN;
     Pack* lowest = tiles + s_.of.base[0];
 #pragma GCC unroll 3
     for (int k = 0; k < width; ++k) {
