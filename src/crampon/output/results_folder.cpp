@@ -110,7 +110,7 @@ ResultsFolder ResultsFolder::open(const fs::path& path) {
 }
 
 template <class Frame>
-void ResultsFolder::write_frame(PvdSeries& series, const char* name, Frame&& frame, Precision precision) {
+void ResultsFolder::write_frame(PvdSeries& series, const char* name, Frame frame, Precision precision) {
   create_folder(path_ / name);
   const std::string file = fmt::format("{}/{}", name, frame_name(name, series.entries().size()));
   const double time = frame.time;

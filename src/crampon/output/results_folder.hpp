@@ -63,7 +63,7 @@ class ResultsFolder {
  private:
   explicit ResultsFolder(std::filesystem::path path);
   template <class Frame>
-  void write_frame(PvdSeries& series, const char* name, Frame&& frame, Precision precision);
+  void write_frame(PvdSeries& series, const char* name, Frame frame, Precision precision);
 
   std::filesystem::path path_;
   PvdSeries particles_, cracks_, grid_;
