@@ -56,7 +56,7 @@ std::vector<std::size_t> deal_to_blocks(const std::vector<Place>& places, Order&
     std::size_t* entry = nullptr;
     for (std::size_t p = 0; p < places.size(); ++p) {
       if (places[p].block == no_place) continue;
-      if (places[p].block != block) entry = &of_block[block = places[p].block];  // neighbours mostly stand in the same
+      if (!entry || places[p].block != block) entry = &of_block[block = places[p].block];  // neighbours mostly stand in the same
       f(static_cast<std::uint32_t>(p), *entry);
     }
   };
