@@ -1,13 +1,14 @@
 #pragma once
 /// Folders and messages for tests of what is written.
 
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "scratch_folder.hpp"
 
 namespace crampon {
 
@@ -16,13 +17,8 @@ namespace fs = std::filesystem;
 // A folder of its own for each test, removed at its end.
 class Output : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "crampon_output_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { fs::remove_all(folder); }
-  fs::path folder;
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path();
 };
 
 inline std::string message_of(const std::function<void()>& act) {

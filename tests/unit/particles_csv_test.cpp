@@ -6,13 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "crampon/geometry/particles_csv.hpp"
+#include "scratch_folder.hpp"
 
 namespace crampon {
 namespace {
@@ -112,14 +111,13 @@ TEST(ParticlesCsv, MissingFileIsReportedWhereItIsNamed) {
   EXPECT_EQ(error_of("no/such.csv", {"in.toml", 7, 3, "body[0].particles"}),
             "in.toml:7:3: body[0].particles: cannot read the particle file \"no/such.csv\" (No such file or directory); correct the path "
             "(relative to the input file) or make the file");
-  const auto folder = std::filesystem::temp_directory_path();
-  EXPECT_NE(error_of(folder.string(), {}).find("it is a folder"), std::string::npos);
-  const auto file = folder / ("crampon_geometry_test_" + std::to_string(std::random_device{}()) + ".csv");
+  const ScratchFolder scratch;
+  EXPECT_NE(error_of(scratch.path().string(), {}).find("it is a folder"), std::string::npos);
+  const auto file = scratch.path() / "particles.csv";
   std::ofstream(file, std::ios::binary) << "x,y,volume\n1,2,3\n";
   EXPECT_EQ(read_particles_csv(file.string(), 2).particles.size(), 1u);
   std::ofstream(file, std::ios::binary | std::ios::trunc);
   EXPECT_NE(error_of(file.string(), {}).find("no header line"), std::string::npos);
-  std::filesystem::remove(file);
 }
 
 }  // namespace

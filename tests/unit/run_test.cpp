@@ -11,6 +11,7 @@
 #include "crampon/run/estimate.hpp"
 #include "crampon/run/run_problem.hpp"
 #include "crampon/run/schedule.hpp"
+#include "scratch_folder.hpp"
 
 namespace crampon {
 namespace {
@@ -78,11 +79,6 @@ class RunTest : public ::testing::Test {
     options.folder = top / "out";
     problem.resolved = "title = \"resolved\"\n";
   }
-  ~RunTest() override { fs::remove_all(top); }
-  static fs::path fresh_folder() {
-    std::string name = (fs::temp_directory_path() / "crampon_run_test_XXXXXX").string();
-    return ::mkdtemp(name.data());
-  }
 
   ResultsFolder results() const { return ResultsFolder::open(options.folder); }
   std::vector<double> frame_times() const {
@@ -103,7 +99,8 @@ class RunTest : public ::testing::Test {
     return check_results(results(), problem).at(0);
   }
 
-  fs::path top = fresh_folder();
+  const ScratchFolder scratch;
+  const fs::path top = scratch.path();
   Problem problem;
   RunOptions options;
 };

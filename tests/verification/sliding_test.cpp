@@ -6,13 +6,15 @@
 #include <fstream>
 
 #include "on_floor.hpp"
+#include "scratch_folder.hpp"
 
 namespace crampon::test {
 namespace {
 
 /// A disk of particles in rings about its centre, so that its rim is round: a file for [[body]] particles.
-std::string rings(double radius, double spacing, const std::string& name) {
-  const std::string path = testing::TempDir() + "crampon_rings_" + name + ".csv";
+std::string rings(double radius, double spacing) {
+  static const ScratchFolder scratch;
+  const std::string path = scratch.path() / "rings.csv";
   std::ofstream out(path);
   out << "x,y,volume\n";
   const int count = static_cast<int>(std::lround(radius / spacing));
@@ -55,7 +57,7 @@ TEST_P(DiskOnIncline, SlipsOrRolls) {
   s.end = 0.16;
   s.room = 0.036;
   s.particles_per_cell = 3;
-  s.body = fmt::format("particles = \"{}\"", rings(radius, s.cell / 3, std::string(c.name) + "_" + c.shape_functions));
+  s.body = fmt::format("particles = \"{}\"", rings(radius, s.cell / 3));
   const Motion m = follow(s, Places::yes);
   const double expected = rolls ? 2. / 3 * g * std::sin(angle) : g * (std::sin(angle) - c.friction * std::cos(angle));
   const double spin = rolls ? -expected / radius : -2 * c.friction * g * std::cos(angle) / radius;
