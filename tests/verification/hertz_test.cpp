@@ -45,7 +45,7 @@ double rim(double x) { return radius - std::sqrt(radius * radius - x * x); }
 /// Columns of particles from the rim up, so that the rim is smooth; the file with them.
 std::string columns(const std::string& name, const Part& part, double spacing) {
   static const ScratchFolder scratch;
-  const std::string path = scratch.path() / (name + ".csv");
+  std::string path = scratch.path() / (name + ".csv");
   std::ofstream out(path);
   out << "x,y,volume\n";
   for (int i = 0; (i + 0.5) * spacing < radius; ++i) {

@@ -14,7 +14,7 @@ namespace {
 /// A disk of particles in rings about its centre, so that its rim is round: a file for [[body]] particles.
 std::string rings(double radius, double spacing) {
   static const ScratchFolder scratch;
-  const std::string path = scratch.path() / "rings.csv";
+  std::string path = scratch.path() / "rings.csv";
   std::ofstream out(path);
   out << "x,y,volume\n";
   const int count = static_cast<int>(std::lround(radius / spacing));
