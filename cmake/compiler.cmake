@@ -7,6 +7,10 @@ add_library(crampon_flags INTERFACE)
 # Contraction off: geometric predicates and equal bits across compilers depend on it; kernels fuse explicitly (core/pack.hpp).
 target_compile_options(crampon_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi -Wno-restrict -ffp-contract=off -fno-math-errno)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Loops over rows of a few hundred bytes stay loops: g++ 12 makes "rep movs" of them, which takes longer to begin than the loop (step/assemble.hpp).
+  target_compile_options(crampon_flags INTERFACE -fno-tree-loop-distribute-patterns)
+endif()
 if(CRAMPON_ISA AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   target_compile_options(crampon_flags INTERFACE -march=${CRAMPON_ISA})
   target_compile_definitions(crampon_flags INTERFACE CRAMPON_ISA_NAME="${CRAMPON_ISA}")

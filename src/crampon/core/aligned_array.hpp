@@ -14,11 +14,13 @@
 
 namespace crampon {
 
+inline constexpr std::size_t cache_line = 64;  // bytes
+
 /// Memory on cache lines, or null. What is large asks for large pages: to touch ten million particles for the first time in pages of 4 KiB
 /// takes as long as several steps.
 inline void* allocate_aligned(std::size_t bytes) {
-  constexpr std::size_t line = 64, large_page = std::size_t{2} << 20;
-  const std::size_t alignment = bytes < 2 * large_page ? line : large_page;
+  constexpr std::size_t large_page = std::size_t{2} << 20;
+  const std::size_t alignment = bytes < 2 * large_page ? cache_line : large_page;
   void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
 #ifdef MADV_HUGEPAGE
   if (memory && alignment == large_page) ::madvise(memory, bytes / large_page * large_page, MADV_HUGEPAGE);  // it is a wish

@@ -3,7 +3,7 @@
 /// do not depend on the number of threads (DESIGN section 2).
 
 #include <algorithm>
-#include <cstring>
+#include <type_traits>
 
 #include "crampon/shape/stencil.hpp"
 #include "crampon/step/state.hpp"
@@ -26,10 +26,19 @@ struct Overlap {
       empty = empty || low[k] >= high[k];
     }
   }
-  /// f(local index, tile index, count) for every row along x.
+  /// f(local index, tile index, count) for every row along x. Of whole rows, which are most, the compiler knows the count.
   template <class F>
   void rows(F f) const {
-    const int count = high[0] - low[0];
+    if (high[0] - low[0] == block_side) {
+      for_rows(f, std::integral_constant<int, block_side>{});
+    } else {
+      for_rows(f, high[0] - low[0]);
+    }
+  }
+
+ private:
+  template <class F, class Count>
+  void for_rows(F f, Count count) const {
     if constexpr (Dim == 2) {
       for (int j = low[1]; j < high[1]; ++j) {
         f(j * block_side + low[0], (j + shift[1]) * Tile<Dim, Shape>::side + low[0] + shift[0], count);
@@ -76,15 +85,18 @@ const TileBox<Dim>& touched_box(const State<Dim>& state, std::size_t block, int 
   return layers.tile[l].cracks.empty() ? state.blocks.list[block].touched : layers.tile_box[l];
 }
 
+// Rows are a few hundred bytes: plain loops over registers, since calls of memset and memcpy, or what compilers make of them, cost more
+// to begin than to do (-fno-tree-loop-distribute-patterns keeps the loops).
+
 /// Clears the touched box of a tile.
 template <int Dim, class Shape, class Record>
 void clear_tile(Record* tile, const TileBox<Dim>& box) {
   if (box.empty()) return;
   constexpr int side = Tile<Dim, Shape>::side;
-  const std::size_t bytes = static_cast<std::size_t>(box.high[0] - box.low[0]) * sizeof(Record);
   for (int k = Dim == 3 ? box.low[Dim - 1] : 0; k < (Dim == 3 ? box.high[Dim - 1] : 1); ++k) {
     for (int j = box.low[1]; j < box.high[1]; ++j) {
-      std::memset(static_cast<void*>(tile + (k * side + j) * side + box.low[0]), 0, bytes);
+      Record* row = tile + (k * side + j) * side;
+      for (int i = box.low[0]; i < box.high[0]; ++i) row[i] = Record{};
     }
   }
 }
@@ -102,7 +114,7 @@ inline void add_record(Record& a, const Record& b) {
 template <int Dim, class Shape, class Record>
 void assemble_layer(const State<Dim>& state, std::size_t block, const Layer& wanted, const AlignedArray<Record>& tiles, Record* out,
                     bool contact_only = false) {
-  std::memset(static_cast<void*>(out), 0, sizeof(Record) * block_nodes<Dim>);
+  std::fill_n(out, block_nodes<Dim>, Record{});
   const Block<Dim>& own = state.blocks.list[block];
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t c = own.neighbours[o];
@@ -114,10 +126,18 @@ void assemble_layer(const State<Dim>& state, std::size_t block, const Layer& wan
     const Overlap<Dim, Shape> overlap(neighbour_step<Dim>(o), touched_box(state, c, layer));
     if (overlap.empty) continue;
     const Record* tile = &tiles[(std::size_t{layers.tile_begin} + layer) * Tile<Dim, Shape>::nodes];
-    overlap.rows([&](int local, int t, int count) {
+    overlap.rows([&](int local, int t, auto count) {
       for (int i = 0; i < count; ++i) add_record(out[local + i], tile[t + i]);
     });
   }
+}
+
+/// Asks for the nodal records of a layer ahead of time: a hint, which past the end does nothing.
+template <int Dim, class Record>
+void prefetch_layer(const AlignedArray<Record>& nodes, std::size_t first) {
+  if (first >= nodes.size()) return;
+  const char* bytes = reinterpret_cast<const char*>(&nodes[first]);
+  for (std::size_t k = 0; k < block_nodes<Dim> * sizeof(Record); k += cache_line) __builtin_prefetch(bytes + k);
 }
 
 /// Copies nodal records into a tile of a block, for one of its layers, over the touched box.
@@ -135,7 +155,10 @@ void gather_layer(const State<Dim>& state, std::size_t block, int layer, const A
     if (overlap.empty) continue;
     const int there = layer_of<Dim>(state.nodes.layers[c].node, layers.tile[static_cast<std::size_t>(layer)]);
     const Record* source = &nodes[state.nodes.layers[c].slot(there, 0)];
-    overlap.rows([&](int local, int t, int count) { std::memcpy(static_cast<void*>(tile + t), source + local, sizeof(Record) * count); });
+    if (c == block) prefetch_layer<Dim>(nodes, state.nodes.layers[c].slot(there, 0) + 2 * block_nodes<Dim>);  // the block after next
+    overlap.rows([&](int local, int t, auto count) {
+      for (int i = 0; i < count; ++i) tile[t + i] = source[local + i];
+    });
   }
 }
 

@@ -29,7 +29,7 @@ void assemble_contact_sums(State<Dim>& state, std::size_t b) {
   // Normals belong to cracks, not to layers, and are kept for the whole tile.
   for (std::size_t c = 0; c < layers.node_cracks.size(); ++c) {
     CrossingSums* out = &state.nodes.crossing[(layers.crossing_node_begin + c) * block_nodes<Dim>];
-    std::memset(static_cast<void*>(out), 0, sizeof(CrossingSums) * block_nodes<Dim>);
+    std::fill_n(out, block_nodes<Dim>, CrossingSums{});
     for (int o = 0; o < neighbour_count<Dim>; ++o) {
       const std::uint32_t there = state.blocks.list[b].neighbours[o];
       if (there == no_block) continue;
