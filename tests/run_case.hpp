@@ -31,14 +31,14 @@ inline const Field& field(const PointFrame& frame, const std::string& name) {
   throw std::runtime_error("no field " + name);
 }
 
-inline double largest(const std::vector<double>& values) {
+inline double largest(const Numbers& values) {
   double m = 0;
   for (const double v : values) m = std::fmax(m, std::fabs(v));
   return m;
 }
 
 /// Largest difference of two lists; infinite when their lengths differ or a number is bad.
-inline double difference(const std::vector<double>& a, const std::vector<double>& b) {
+inline double difference(const Numbers& a, const Numbers& b) {
   if (a.size() != b.size()) return HUGE_VAL;
   double m = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

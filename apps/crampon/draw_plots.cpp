@@ -116,7 +116,8 @@ void draw_profile(const DrawArguments& arguments, const ResultsFolder& folder, c
     curve.style = CurveStyle::marks;
     std::map<double, Strip> strips;
     for (std::size_t p = 0; p < quantity.values.size(); ++p) {
-      const double* at = &frame.positions[3 * p];
+      std::array<double, 3> at{};
+      frame.positions.copy(3 * p, 3, at.data());
       if (window && !(at[0] >= (*window)[0] && at[0] <= (*window)[1] && at[1] >= (*window)[2] && at[1] <= (*window)[3])) continue;
       lowest = std::min(lowest, at[axis]), highest = std::max(highest, at[axis]);
       strips[arguments.mean && frame.cell > 0 ? std::floor(at[axis] / frame.cell) : static_cast<double>(p)].add(at[axis],

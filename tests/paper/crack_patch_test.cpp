@@ -97,11 +97,10 @@ thickness = "1 mm"
 /// Values of the particles of the upper arm, in the order of their ids, which is the same in both models.
 std::vector<double> upper(const PatchCase& c, const PointFrame& start, const Field& f) {
   std::vector<double> out;
+  const auto n = static_cast<std::size_t>(f.components);
   for (std::size_t i = 0; i < start.positions.size() / 3; ++i) {
     const double across = c.turned ? -start.positions[3 * i] : start.positions[3 * i + 1];
-    if (across > 0)
-      out.insert(out.end(), f.values.begin() + static_cast<long>(i) * f.components,
-                 f.values.begin() + static_cast<long>(i + 1) * f.components);
+    for (std::size_t k = 0; across > 0 && k < n; ++k) out.push_back(f.values[n * i + k]);
   }
   return out;
 }

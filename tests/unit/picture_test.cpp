@@ -72,7 +72,7 @@ TEST(Palette, UniformPaletteHasEqualStepsAndRisingLightness) {
 PointFrame one_stress(const std::array<double, 6>& stress) {
   PointFrame f;
   f.positions = {0, 0, 0};
-  f.fields = {{"stress", "Pa", 6, {stress.begin(), stress.end()}}, {"velocity", "m/s", 3, {2, -3, 6}}};
+  f.fields = {{"stress", "Pa", 6, std::vector<double>(stress.begin(), stress.end())}, {"velocity", "m/s", 3, {2, -3, 6}}};
   return f;
 }
 
@@ -281,9 +281,9 @@ TEST_F(Output, FringePictureIsDarkAndBrightByTheFormula) {
 TEST_F(Output, PanelSharesColoursAndWindow) {
   const PointFrame a = block(0);
   PointFrame b = block(0);
-  for (double& v : b.fields[1].values) v *= -2;
-  b.positions[0] = std::numeric_limits<double>::quiet_NaN();         // left out
-  b.fields[1].values[9] = std::numeric_limits<double>::quiet_NaN();  // shown as such
+  for (std::size_t i = 0; i < b.fields[1].values.size(); ++i) b.fields[1].values.set(i, -2 * b.fields[1].values[i]);
+  b.positions.set(0, std::numeric_limits<double>::quiet_NaN());         // left out
+  b.fields[1].values.set(9, std::numeric_limits<double>::quiet_NaN());  // shown as such
   DrawOptions options{.quantity = "signal", .range = ColourRange::symmetric, .title = "panel", .columns = 2};
   const PictureMap map = draw_panel({{&a, nullptr}, {&b, nullptr}, {&a, nullptr}}, options, folder / "p.png");
   ASSERT_EQ(map.panels.size(), 3u);

@@ -48,7 +48,7 @@ class FakeSimulation : public Simulation {
     return size;
   }
   std::vector<std::string> particle_quantities() const override { return {"id", "body", "speed"}; }
-  PointFrame particles(const std::vector<std::string>&) const override {
+  PointFrame particles(const std::vector<std::string>&, Precision) const override {
     PointFrame frame;
     frame.time = time_;
     frame.step = steps_;

@@ -40,7 +40,7 @@ void expect_equal_runs(const std::string& a, const std::string& b, double relati
   run(*two);
   const PointFrame first = one->particles(), second = two->particles();
   for (const char* name : {"velocity", "stress"}) {
-    const std::vector<double>& expected = field(first, name).values;
+    const Numbers& expected = field(first, name).values;
     ASSERT_GT(largest(expected), 0);
     EXPECT_LE(difference(field(second, name).values, expected), relative * largest(expected)) << name;
   }

@@ -113,8 +113,8 @@ inline Motion follow(const OnFloor& setup, Places places = Places::no) {
   std::vector<double> mass, mine;
   {
     const PointFrame frame = motion.simulation->particles({"mass"});
-    mass = field(frame, "mass").values;
-    mine = field(frame, "body").values;
+    mass = field(frame, "mass").values.doubles();
+    mine = field(frame, "body").values.doubles();
     for (std::size_t p = 0; p < mass.size(); ++p) {
       if (mine[p] != 0) mass[p] = 0;
       motion.mass += mass[p];

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -28,6 +29,21 @@ int write_all(int file, std::string_view bytes) {
   return 0;
 }
 
+void write_pieces(const std::filesystem::path& path, std::span<const std::string_view> pieces) {
+  const std::filesystem::path partial = partial_name(path);
+  const int file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) fail(path, "write", errno);
+  int code = 0;
+  for (const std::string_view piece : pieces)
+    if (code == 0) code = write_all(file, piece);
+  if (::close(file) != 0 && code == 0) code = errno;  // network file systems report a full disk only here
+  if (code == 0 && ::rename(partial.c_str(), path.c_str()) != 0) code = errno;
+  if (code != 0) {
+    ::unlink(partial.c_str());
+    fail(path, "write", code);
+  }
+}
+
 }  // namespace
 
 std::filesystem::path partial_name(const std::filesystem::path& path) {
@@ -36,17 +52,10 @@ std::filesystem::path partial_name(const std::filesystem::path& path) {
   return partial;
 }
 
-void write_file(const std::filesystem::path& path, std::string_view bytes) {
-  const std::filesystem::path partial = partial_name(path);
-  const int file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) fail(path, "write", errno);
-  int code = write_all(file, bytes);
-  if (::close(file) != 0 && code == 0) code = errno;  // network file systems report a full disk only here
-  if (code == 0 && ::rename(partial.c_str(), path.c_str()) != 0) code = errno;
-  if (code != 0) {
-    ::unlink(partial.c_str());
-    fail(path, "write", code);
-  }
+void write_file(const std::filesystem::path& path, std::string_view bytes) { write_pieces(path, {&bytes, 1}); }
+
+void write_file(const std::filesystem::path& path, const std::vector<std::string>& pieces) {
+  write_pieces(path, std::vector<std::string_view>(pieces.begin(), pieces.end()));
 }
 
 std::string read_file(const std::filesystem::path& path) {

@@ -4,12 +4,15 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace crampon {
 
 /// Writes bytes to a temporary neighbour and renames it onto path, so that path is either the old file or the whole new one.
 /// Throws std::runtime_error "path: cannot write: reason" (disk full, no permission, ...) and removes the temporary file.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+/// The same for a file in pieces.
+void write_file(const std::filesystem::path& path, const std::vector<std::string>& pieces);
 
 /// Content of a file. Throws std::runtime_error "path: cannot read: reason".
 std::string read_file(const std::filesystem::path& path);

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "crampon/output/numbers.hpp"
+
 namespace crampon {
 
 /// One quantity on particles, nodes or crack vertices: row-major, components values per item.
@@ -13,7 +15,7 @@ struct Field {
   std::string name;
   std::string unit;
   int components = 1;
-  std::vector<double> values;
+  Numbers values;
 };
 
 /// A set of points (particles or nodes) with fields; points in the order of their ids, so that frames can be compared.
@@ -21,10 +23,10 @@ struct PointFrame {
   double time = 0;  ///< s
   std::int64_t step = 0;
   int dimension = 2;
-  std::vector<double> positions;      ///< 3 per point, m
-  std::vector<Field> fields;          ///< particles always have "id" and "body"
-  double cell = 0;                    ///< grid spacing, m (largest axis), for drawing
-  std::vector<double> particle_size;  ///< edge lengths of an undeformed particle, 3 per point, m; may be empty (nodes)
+  Numbers positions;          ///< 3 per point, m
+  std::vector<Field> fields;  ///< particles always have "id" and "body"
+  double cell = 0;            ///< grid spacing, m (largest axis), for drawing
+  Numbers particle_size;      ///< edge lengths of an undeformed particle, 3 per point, m; may be empty (nodes)
 };
 
 /// All cracks at one time. Vertices of crack k are [begin[k], begin[k + 1]).

@@ -28,7 +28,8 @@ class DisplacementGradient {
 
   std::array<double, 4> operator()(std::size_t i) const {
     if (gradient_) {
-      const double* f = &gradient_->values[9 * i];
+      std::array<double, 9> f{};
+      gradient_->values.copy(9 * i, 9, f.data());
       return {f[0] - 1, f[1], f[3], f[4] - 1};
     }
     std::array<double, 4> h{};

@@ -28,7 +28,11 @@ template <class Function>
 std::vector<double> per_point(const Field& field, Function function) {
   const std::size_t n = static_cast<std::size_t>(field.components);
   std::vector<double> out(field.values.size() / n);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = function(&field.values[i * n]);
+  std::vector<double> row(n);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    field.values.copy(i * n, n, row.data());
+    out[i] = function(row.data());
+  }
   return out;
 }
 
@@ -59,7 +63,7 @@ double fringe(const double* s, double k_f) { return std::cos(k_f * 1e-6 * std::h
 
 Quantity evaluate_quantity(const PointFrame& frame, const std::string& name, double fringe_constant) {
   if (const Field* field = find_field(frame, name)) {
-    if (field->components == 1) return {name, field->unit, field->values};
+    if (field->components == 1) return {name, field->unit, field->values.doubles()};
     if (field->components == 3) return {name, field->unit, magnitude(*field)};
     if (field->components == 6) throw std::invalid_argument(fmt::format("\"{0}\" is a tensor; name a component, such as \"{0}_xx\"", name));
   }

@@ -6,33 +6,24 @@
 #include <string_view>
 #include <vector>
 
+#include "crampon/output/frame.hpp"
+
 namespace crampon {
 
-enum class VtkType { float32, float64, int32, int64 };
-
-/// One data array; values are converted to `type` when written.
-struct VtkArray {
-  std::string name;
-  std::string unit;  ///< stored as VTK's own UNITS_LABEL
-  int components = 1;
-  VtkType type = VtkType::float64;
-  std::vector<double> values;
-};
-
-/// A poly data set of one piece. Cells are given by connectivity (point of each corner) and offsets (end of each cell).
+/// A poly data set of one piece. Arrays are stored as the type they have; units as VTK's own UNITS_LABEL.
 struct PolyData {
-  std::vector<VtkArray> field_data;  ///< stored as text, so a person can read the time in an editor
-  std::string string_name;           ///< one array of strings in the field data; empty: none
+  std::vector<Field> field_data;  ///< stored as text, so a person can read the time in an editor
+  std::string string_name;        ///< one array of strings in the field data; empty: none
   std::vector<std::string> strings;
-  VtkArray points;  ///< 3 components
-  std::vector<VtkArray> point_data, cell_data;
-  std::vector<double> vertex_connectivity, vertex_offsets;
-  std::vector<double> line_connectivity, line_offsets;
+  Field points;  ///< 3 components
+  std::vector<Field> point_data, cell_data;
+  std::size_t vertices = 0;  ///< the first so many points are a cell each
+  Numbers line_ends;         ///< lines run through all points one after another: past the last point of each
 };
 
-/// The bytes of the file. Throws std::invalid_argument when an array's length does not fit the number of points or cells.
-/// Frees each array once it is encoded.
-std::string encode_poly_data(PolyData data);
+/// The file, in pieces to be written one after another. Throws std::invalid_argument when an array's length does not fit the number of
+/// points or cells. Frees each array once it is encoded.
+std::vector<std::string> encode_poly_data(PolyData data);
 
 /// Reads what encode_poly_data wrote. Throws std::runtime_error that says what is damaged.
 PolyData decode_poly_data(std::string_view bytes);

@@ -123,33 +123,22 @@ std::string decompress(std::string_view appended, std::size_t at) {
   return raw;
 }
 
-VtkType type_of(const std::string& name) {
-  if (name == "Float32") return VtkType::float32;
-  if (name == "Float64") return VtkType::float64;
-  if (name == "Int32") return VtkType::int32;
-  if (name == "Int64") return VtkType::int64;
+NumberType type_of(const std::string& name) {
+  if (name == "Float32") return NumberType::float32;
+  if (name == "Float64") return NumberType::float64;
+  if (name == "Int32") return NumberType::int32;
+  if (name == "Int64") return NumberType::int64;
   damaged("unknown data type " + name);
 }
 
-template <class T>
-std::vector<double> values_as(const std::string& raw) {
-  if (raw.size() % sizeof(T) != 0) damaged("a data array ends within a value");
-  std::vector<double> values(raw.size() / sizeof(T));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    T t;
-    std::memcpy(&t, raw.data() + i * sizeof(T), sizeof(T));
-    values[i] = static_cast<double>(t);
-  }
-  return values;
-}
-
-VtkArray read_array(const Tag& tag, std::string_view appended) {
-  VtkArray array;
+Field read_array(const Tag& tag, std::string_view appended) {
+  Field array;
   array.name = tag.attribute("Name");
-  array.type = type_of(tag.attribute("type"));
   array.components = static_cast<int>(tag.count("NumberOfComponents"));
   if (array.components < 1) damaged("array " + array.name + " has no components");
+  const NumberType type = type_of(tag.attribute("type"));
   if (tag.attribute("format") == "ascii") {
+    array.values = Numbers(type);
     const char* p = tag.text.c_str();
     for (std::size_t i = 0; i < tag.count("NumberOfTuples"); ++i) {
       char* end = nullptr;
@@ -160,20 +149,8 @@ VtkArray read_array(const Tag& tag, std::string_view appended) {
     return array;
   }
   const std::string raw = decompress(appended, tag.count("offset"));
-  switch (array.type) {
-    case VtkType::float32:
-      array.values = values_as<float>(raw);
-      break;
-    case VtkType::float64:
-      array.values = values_as<double>(raw);
-      break;
-    case VtkType::int32:
-      array.values = values_as<std::int32_t>(raw);
-      break;
-    case VtkType::int64:
-      array.values = values_as<std::int64_t>(raw);
-      break;
-  }
+  array.values = Numbers(type, raw);
+  if (array.values.bytes() != raw.size()) damaged("a data array ends within a value");
   return array;
 }
 
@@ -210,7 +187,7 @@ std::string_view checked(std::string_view bytes) {
   return bytes;
 }
 
-void check_count(const VtkArray& a, std::size_t items) {
+void check_count(const Field& a, std::size_t items) {
   if (a.values.size() != items * static_cast<std::size_t>(a.components)) damaged("array " + a.name + " has a wrong length");
 }
 
@@ -226,20 +203,21 @@ PolyData decode_poly_data(std::string_view bytes) {
   PolyData data;
   std::size_t points = 0, cells = 0;
   std::string section;
-  VtkArray* last = nullptr;
-  VtkArray discarded;
+  Field* last = nullptr;
+  Field discarded;
   TagReader tags(bytes.substr(0, mark));
   while (std::optional<Tag> tag = tags.next()) {
     if (tag->name == "Piece") {
       points = tag->count("NumberOfPoints");
-      cells = tag->count("NumberOfVerts") + tag->count("NumberOfLines");
+      data.vertices = tag->count("NumberOfVerts");
+      cells = data.vertices + tag->count("NumberOfLines");
     } else if (tag->name == "Array") {
       data.string_name = tag->attribute("Name");
       data.strings = read_strings(*tag);
     } else if (tag->name == "InformationKey") {
       if (last) last->unit = unescape(tag->text);
     } else if (tag->name == "DataArray") {
-      VtkArray array = read_array(*tag, appended);
+      Field array = read_array(*tag, appended);
       last = &discarded;
       if (section == "FieldData")
         last = &data.field_data.emplace_back(std::move(array));
@@ -249,18 +227,16 @@ PolyData decode_poly_data(std::string_view bytes) {
         last = &data.cell_data.emplace_back(std::move(array));
       else if (section == "Points")
         *(last = &data.points) = std::move(array);
-      else if (section == "Verts")
-        (array.name == "offsets" ? data.vertex_offsets : data.vertex_connectivity) = std::move(array.values);
-      else if (section == "Lines")
-        (array.name == "offsets" ? data.line_offsets : data.line_connectivity) = std::move(array.values);
+      else if (section == "Lines" && array.name == "offsets")
+        data.line_ends = std::move(array.values);
     } else if (!tag->name.starts_with('/')) {
       section = tag->name;
     }
   }
   if (data.points.components != 3) damaged("its points have no three coordinates");
   check_count(data.points, points);
-  for (const VtkArray& a : data.point_data) check_count(a, points);
-  for (const VtkArray& a : data.cell_data) check_count(a, cells);
+  for (const Field& a : data.point_data) check_count(a, points);
+  for (const Field& a : data.cell_data) check_count(a, cells);
   return data;
 }
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <span>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -42,50 +43,31 @@ std::string escape(std::string_view text) {
   return out;
 }
 
-const char* type_name(VtkType type) {
+const char* type_name(NumberType type) {
   switch (type) {
-    case VtkType::float32:
+    case NumberType::float32:
       return "Float32";
-    case VtkType::float64:
+    case NumberType::float64:
       return "Float64";
-    case VtkType::int32:
+    case NumberType::int32:
       return "Int32";
-    case VtkType::int64:
+    case NumberType::int64:
       break;
   }
   return "Int64";
-}
-
-template <class T>
-std::string raw_as(const std::vector<double>& values) {
-  std::string raw(values.size() * sizeof(T), '\0');
-  char* to = raw.data();
-  for (const double v : values) {
-    const T t = static_cast<T>(v);
-    std::memcpy(to, &t, sizeof(T));
-    to += sizeof(T);
-  }
-  return raw;
-}
-
-std::string raw_bytes(const VtkArray& array) {
-  switch (array.type) {
-    case VtkType::float32:
-      return raw_as<float>(array.values);
-    case VtkType::float64:
-      return raw_as<double>(array.values);
-    case VtkType::int32:
-      return raw_as<std::int32_t>(array.values);
-    case VtkType::int64:
-      break;
-  }
-  return raw_as<std::int64_t>(array.values);
 }
 
 void append_word(std::string& out, std::uint64_t word) {
   char bytes[8];
   std::memcpy(bytes, &word, 8);
   out.append(bytes, 8);
+}
+
+/// first, first + 1, ... n of them.
+Numbers counted(std::size_t first, std::size_t n) {
+  Numbers out(NumberType::int32, n, 1, 1);
+  for (std::size_t i = 0; i < n; ++i) out.set(i, static_cast<double>(first + i));
+  return out;
 }
 
 /// Packs arrays in blocks, as the files want them.
@@ -95,23 +77,28 @@ class Compressor {
     if (!state_) throw std::bad_alloc();
   }
 
-  /// Appends number of blocks, bytes of a block, bytes of the last block when shorter (else 0), compressed bytes of each; then the blocks.
-  void append(std::string& out, const std::string& raw) const {
-    const std::size_t blocks = (raw.size() + block_bytes - 1) / block_bytes;
-    append_word(out, blocks);
-    append_word(out, block_bytes);
-    append_word(out, raw.size() % block_bytes);
-    std::size_t size_at = out.size();
-    out.resize(out.size() + 8 * blocks);
-    for (std::size_t from = 0; from < raw.size(); from += block_bytes, size_at += 8) {
-      const std::size_t size = std::min(block_bytes, raw.size() - from), end = out.size();
-      const std::size_t room = libdeflate_zlib_compress_bound(state_.get(), size);
-      out.resize(end + room);
-      const std::uint64_t packed = libdeflate_zlib_compress(state_.get(), raw.data() + from, size, out.data() + end, room);
+  /// Appends number of blocks, bytes of a block, bytes of the last block when shorter (else 0), compressed bytes of each; then the blocks,
+  /// a piece each. Returns the size of all that.
+  std::size_t append(std::vector<std::string>& pieces, const Numbers& numbers) {
+    const std::size_t bytes = numbers.bytes(), head_at = pieces.size();
+    std::string head;
+    append_word(head, (bytes + block_bytes - 1) / block_bytes);
+    append_word(head, block_bytes);
+    append_word(head, bytes % block_bytes);
+    pieces.emplace_back();
+    std::size_t total = 0;
+    for (std::size_t from = 0; from < bytes; from += block_bytes) {
+      const std::span<const char> raw = numbers.block(from, std::min(block_bytes, bytes - from), raw_room_);
+      packed_room_.resize(libdeflate_zlib_compress_bound(state_.get(), raw.size()));
+      const std::size_t packed = libdeflate_zlib_compress(state_.get(), raw.data(), raw.size(), packed_room_.data(), packed_room_.size());
       if (packed == 0) throw std::logic_error("a block does not fit the room that libdeflate asked for");
-      out.resize(end + packed);
-      std::memcpy(out.data() + size_at, &packed, 8);
+      append_word(head, packed);
+      pieces.emplace_back(packed_room_.data(), packed);
+      total += packed;
     }
+    total += head.size();
+    pieces[head_at] = std::move(head);
+    return total;
   }
 
  private:
@@ -121,14 +108,15 @@ class Compressor {
     void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
   };
   std::unique_ptr<libdeflate_compressor, Free> state_;
+  std::vector<char> raw_room_, packed_room_;
 };
 
 const char* const axis_names[] = {"X", "Y", "Z"};
 const char* const tensor_names[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
 
-std::string open_tag(const VtkArray& array) {
-  std::string tag = fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"", type_name(array.type), escape(array.name),
-                                array.components);
+std::string open_tag(const Field& array) {
+  std::string tag = fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"", type_name(array.values.type()),
+                                escape(array.name), array.components);
   const char* const* names = array.components == 3 ? axis_names : array.components == 6 ? tensor_names : nullptr;
   for (int k = 0; names && k < array.components; ++k) tag += fmt::format(" ComponentName{}=\"{}\"", k, names[k]);
   return tag;
@@ -137,18 +125,18 @@ std::string open_tag(const VtkArray& array) {
 class Document {
  public:
   void line(std::string_view text) { (xml_ += text) += '\n'; }
-  void array(VtkArray& a) {
-    line(fmt::format("{} format=\"appended\" offset=\"{}\">", open_tag(a), appended_.size()));
+  void array(Field& a) {
+    line(fmt::format("{} format=\"appended\" offset=\"{}\">", open_tag(a), appended_bytes_));
     if (!a.unit.empty())
       line(fmt::format("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>", escape(a.unit)));
     line("</DataArray>");
-    compressor_.append(appended_, raw_bytes(a));
-    std::vector<double>().swap(a.values);
+    appended_bytes_ += compressor_.append(pieces_, a.values);
+    a.values = Numbers();
   }
-  void text_array(const VtkArray& a) {
+  void text_array(const Field& a) {
     line(fmt::format("{} NumberOfTuples=\"{}\" format=\"ascii\">", open_tag(a), a.values.size()));
     for (const double v : a.values) {
-      if (a.type == VtkType::int64)
+      if (a.values.type() == NumberType::int64)
         line(fmt::format("{}", static_cast<std::int64_t>(v)));
       else
         line(fmt::format("{:.17g}", v));
@@ -164,30 +152,33 @@ class Document {
     }
     line("</Array>");
   }
-  void cells(const char* section, std::vector<double>&& connectivity, std::vector<double>&& offsets) {
+  /// Cells that take all points one after another.
+  void cells(const char* section, std::size_t points, Numbers&& ends) {
     line(fmt::format("<{}>", section));
-    VtkArray points{"connectivity", "", 1, VtkType::int32, std::move(connectivity)},
-        ends{"offsets", "", 1, VtkType::int32, std::move(offsets)};
-    array(points);
-    array(ends);
+    Field connectivity{"connectivity", "", 1, counted(0, points)}, offsets{"offsets", "", 1, std::move(ends).as(NumberType::int32)};
+    array(connectivity);
+    array(offsets);
     line(fmt::format("</{}>", section));
   }
-  std::string finish() {
+  std::vector<std::string> finish() {
     line("<AppendedData encoding=\"raw\">");
     xml_ += '_';
-    xml_ += appended_;
-    xml_ += "\n</AppendedData>\n</VTKFile>\n";
-    const std::uint32_t crc = libdeflate_crc32(0, xml_.data(), xml_.size());
-    xml_ += fmt::format("<!-- crc32 {:08x} -->\n", crc);
-    return std::move(xml_);
+    pieces_.front() = std::move(xml_);
+    pieces_.emplace_back("\n</AppendedData>\n</VTKFile>\n");
+    std::uint32_t crc = 0;
+    for (const std::string& piece : pieces_) crc = libdeflate_crc32(crc, piece.data(), piece.size());
+    pieces_.push_back(fmt::format("<!-- crc32 {:08x} -->\n", crc));
+    return std::move(pieces_);
   }
 
  private:
-  std::string xml_, appended_;
+  std::string xml_;
+  std::vector<std::string> pieces_{1};  // the first is for the XML before the appended data
+  std::size_t appended_bytes_ = 0;
   Compressor compressor_;
 };
 
-void check_length(const VtkArray& a, std::size_t items, const char* what) {
+void check_length(const Field& a, std::size_t items, const char* what) {
   if (a.components < 1 || a.values.size() != items * static_cast<std::size_t>(a.components))
     throw std::invalid_argument(fmt::format("field \"{}\" has {} values, but {} {} of {} components need {}", a.name, a.values.size(),
                                             items, what, a.components, items * a.components));
@@ -195,12 +186,12 @@ void check_length(const VtkArray& a, std::size_t items, const char* what) {
 
 }  // namespace
 
-std::string encode_poly_data(PolyData data) {
+std::vector<std::string> encode_poly_data(PolyData data) {
   const std::size_t points = data.points.values.size() / 3;
   check_length(data.points, points, "points");
-  const std::size_t vertices = data.vertex_offsets.size(), lines = data.line_offsets.size();
-  for (const VtkArray& a : data.point_data) check_length(a, points, "points");
-  for (const VtkArray& a : data.cell_data) check_length(a, vertices + lines, "cells");
+  const std::size_t vertices = data.vertices, lines = data.line_ends.size();
+  for (const Field& a : data.point_data) check_length(a, points, "points");
+  for (const Field& a : data.cell_data) check_length(a, vertices + lines, "cells");
 
   Document doc;
   doc.line("<?xml version=\"1.0\"?>");
@@ -209,7 +200,7 @@ std::string encode_poly_data(PolyData data) {
       "compressor=\"vtkZLibDataCompressor\">");
   doc.line("<PolyData>");
   doc.line("<FieldData>");
-  for (const VtkArray& a : data.field_data) doc.text_array(a);
+  for (const Field& a : data.field_data) doc.text_array(a);
   if (!data.string_name.empty()) doc.strings(data.string_name, data.strings);
   doc.line("</FieldData>");
   doc.line(
@@ -217,16 +208,16 @@ std::string encode_poly_data(PolyData data) {
                   "NumberOfPolys=\"0\">",
                   points, vertices, lines));
   doc.line("<PointData>");
-  for (VtkArray& a : data.point_data) doc.array(a);
+  for (Field& a : data.point_data) doc.array(a);
   doc.line("</PointData>");
   doc.line("<CellData>");
-  for (VtkArray& a : data.cell_data) doc.array(a);
+  for (Field& a : data.cell_data) doc.array(a);
   doc.line("</CellData>");
   doc.line("<Points>");
   doc.array(data.points);
   doc.line("</Points>");
-  doc.cells("Verts", std::move(data.vertex_connectivity), std::move(data.vertex_offsets));
-  doc.cells("Lines", std::move(data.line_connectivity), std::move(data.line_offsets));
+  doc.cells("Verts", vertices, counted(1, vertices));
+  doc.cells("Lines", lines == 0 ? 0 : points, std::move(data.line_ends));
   doc.line("</Piece>");
   doc.line("</PolyData>");
   return doc.finish();

@@ -18,36 +18,33 @@ constexpr const char* size_name = "particle_size";
 constexpr const char* original_name = "original_position";
 constexpr const char* names_name = "crack_names";
 
-VtkType real_type(Precision precision) { return precision == Precision::full ? VtkType::float64 : VtkType::float32; }
-
 // Labels must survive single precision, which holds whole numbers only up to 2^24.
 bool is_label(const Field& field) {
   static constexpr std::array<std::string_view, 6> names{"id", "body", "material", "node", "velocity_field", "crack"};
-  return std::find(names.begin(), names.end(), field.name) != names.end() &&
-         std::all_of(field.values.begin(), field.values.end(), [](double v) { return std::trunc(v) == v && std::abs(v) < 9e15; });
+  if (std::find(names.begin(), names.end(), field.name) == names.end()) return false;
+  if (field.values.type() == NumberType::int32 || field.values.type() == NumberType::int64) return true;
+  for (const double v : field.values)
+    if (!(std::trunc(v) == v && std::abs(v) < 9e15)) return false;
+  return true;
 }
 
-VtkArray array_of(Field&& field, Precision precision) {
-  const VtkType type = is_label(field) ? VtkType::int64 : real_type(precision);
-  return {std::move(field.name), std::move(field.unit), field.components, type, std::move(field.values)};
+Field real_array(const char* name, const char* unit, int components, Numbers&& values, Precision precision) {
+  return {name, unit, components, std::move(values).as(real_type(precision))};
 }
 
-Field field_of(VtkArray&& array) { return {std::move(array.name), std::move(array.unit), array.components, std::move(array.values)}; }
+Field typed(Field&& field, Precision precision) {
+  const NumberType type = is_label(field) ? NumberType::int64 : real_type(precision);
+  field.values = std::move(field.values).as(type);
+  return std::move(field);
+}
 
-VtkArray real_scalar(const char* name, const char* unit, double value) { return {name, unit, 1, VtkType::float64, {value}}; }
-VtkArray whole_scalar(const char* name, double value) { return {name, "", 1, VtkType::int64, {value}}; }
+Field real_scalar(const char* name, const char* unit, double value) { return {name, unit, 1, {value}}; }
+Field whole_scalar(const char* name, double value) { return {name, "", 1, Numbers{value}.as(NumberType::int64)}; }
 
 double scalar(const PolyData& data, std::string_view name) {
-  for (const VtkArray& a : data.field_data)
+  for (const Field& a : data.field_data)
     if (a.name == name && !a.values.empty()) return a.values[0];
   throw std::runtime_error(fmt::format("it holds no {}; it is not a file of the expected kind", name));
-}
-
-// fill = 0, 1, 2, ...
-std::vector<double> counted(std::size_t n, double first) {
-  std::vector<double> out(n);
-  for (std::size_t i = 0; i < n; ++i) out[i] = first + static_cast<double>(i);
-  return out;
 }
 
 PolyData decode_file(const std::filesystem::path& path) {
@@ -66,11 +63,11 @@ PointFrame point_frame(PolyData&& data) {
   frame.dimension = static_cast<int>(scalar(data, "dimension"));
   frame.cell = scalar(data, "cell");
   frame.positions = std::move(data.points.values);
-  for (VtkArray& a : data.point_data) {
+  for (Field& a : data.point_data) {
     if (a.name == size_name)
       frame.particle_size = std::move(a.values);
     else
-      frame.fields.push_back(field_of(std::move(a)));
+      frame.fields.push_back(std::move(a));
   }
   return frame;
 }
@@ -82,24 +79,25 @@ CrackFrame crack_frame(PolyData&& data) {
   if (data.string_name != names_name) throw std::runtime_error("it holds no cracks; it is not a file of the expected kind");
   frame.names = std::move(data.strings);
   const std::size_t vertices = data.points.values.size() / 9;
-  if (data.line_offsets.size() != 3 * frame.names.size() || data.points.values.size() != 9 * vertices)
+  if (data.line_ends.size() != 3 * frame.names.size() || data.points.values.size() != 9 * vertices)
     throw std::runtime_error("damaged file: cracks and lines do not fit together");
-  for (std::size_t k = 0; k < frame.names.size(); ++k) frame.begin.push_back(static_cast<std::int64_t>(data.line_offsets[k]));
+  for (std::size_t k = 0; k < frame.names.size(); ++k) frame.begin.push_back(static_cast<std::int64_t>(data.line_ends[k]));
   if (!std::is_sorted(frame.begin.begin(), frame.begin.end()) || frame.begin.back() != static_cast<std::int64_t>(vertices))
     throw std::runtime_error("damaged file: cracks and vertices do not fit together");
-  const auto third = [&](const std::vector<double>& all, std::size_t part, std::size_t components) {
-    const auto from = all.begin() + static_cast<std::ptrdiff_t>(part * vertices * components);
-    return std::vector<double>(from, from + static_cast<std::ptrdiff_t>(vertices * components));
+  const auto third = [&](const Numbers& all, std::size_t part, std::size_t components) {
+    std::vector<double> values(vertices * components);
+    all.copy(part * values.size(), values.size(), values.data());
+    return values;
   };
   frame.plane = third(data.points.values, 0, 3);
   frame.upper = third(data.points.values, 1, 3);
   frame.lower = third(data.points.values, 2, 3);
-  for (VtkArray& a : data.point_data) {
-    a.values = third(a.values, 0, static_cast<std::size_t>(a.components));
+  for (Field& a : data.point_data) {
+    std::vector<double> values = third(a.values, 0, static_cast<std::size_t>(a.components));
     if (a.name == original_name)
-      frame.original = std::move(a.values);
+      frame.original = std::move(values);
     else
-      frame.fields.push_back(field_of(std::move(a)));
+      frame.fields.push_back({a.name, a.unit, a.components, std::move(values)});
   }
   return frame;
 }
@@ -110,12 +108,10 @@ void write_vtp(const std::filesystem::path& path, PointFrame frame, Precision pr
   PolyData data;
   data.field_data = {real_scalar("TimeValue", "s", frame.time), whole_scalar("step", static_cast<double>(frame.step)),
                      whole_scalar("dimension", frame.dimension), real_scalar("cell", "m", frame.cell)};
-  const std::size_t points = frame.positions.size() / 3;
-  data.points = {"Points", "m", 3, real_type(precision), std::move(frame.positions)};
-  for (Field& field : frame.fields) data.point_data.push_back(array_of(std::move(field), precision));
-  if (!frame.particle_size.empty()) data.point_data.push_back({size_name, "m", 3, real_type(precision), std::move(frame.particle_size)});
-  data.vertex_connectivity = counted(points, 0);
-  data.vertex_offsets = counted(points, 1);
+  data.vertices = frame.positions.size() / 3;
+  data.points = real_array("Points", "m", 3, std::move(frame.positions), precision);
+  for (Field& field : frame.fields) data.point_data.push_back(typed(std::move(field), precision));
+  if (!frame.particle_size.empty()) data.point_data.push_back(real_array(size_name, "m", 3, std::move(frame.particle_size), precision));
   write_file(path, encode_poly_data(std::move(data)));
 }
 
@@ -129,21 +125,23 @@ void write_vtp(const std::filesystem::path& path, CrackFrame frame, Precision pr
   data.field_data = {real_scalar("TimeValue", "s", frame.time), whole_scalar("step", static_cast<double>(frame.step))};
   data.string_name = names_name;
   data.strings = frame.names;
-  data.points = {"Points", "m", 3, real_type(precision), frame.plane};
-  data.points.values.insert(data.points.values.end(), frame.upper.begin(), frame.upper.end());
-  data.points.values.insert(data.points.values.end(), frame.lower.begin(), frame.lower.end());
-  const auto add_thrice = [&](VtkArray array) {
-    const std::vector<double> once = array.values;
-    for (int k = 0; k < 2; ++k) array.values.insert(array.values.end(), once.begin(), once.end());
-    data.point_data.push_back(std::move(array));
+  std::vector<double> points = std::move(frame.plane);
+  points.insert(points.end(), frame.upper.begin(), frame.upper.end());
+  points.insert(points.end(), frame.lower.begin(), frame.lower.end());
+  data.points = real_array("Points", "m", 3, std::move(points), precision);
+  const auto add_thrice = [&](Field&& field) {
+    const std::vector<double> once = field.values.doubles();
+    std::vector<double> thrice;
+    for (int k = 0; k < 3; ++k) thrice.insert(thrice.end(), once.begin(), once.end());
+    field.values = std::move(thrice);
+    data.point_data.push_back(typed(std::move(field), precision));
   };
-  for (Field& field : frame.fields) add_thrice(array_of(std::move(field), precision));
-  if (!frame.original.empty()) add_thrice({original_name, "m", 3, real_type(precision), frame.original});
-  VtkArray crack{"crack", "", 1, VtkType::int32, {}}, surface{"surface", "", 1, VtkType::int32, {}};
-  data.line_connectivity = counted(3 * vertices, 0);
+  for (Field& field : frame.fields) add_thrice(std::move(field));
+  if (!frame.original.empty()) add_thrice({original_name, "m", 3, std::move(frame.original)});
+  Field crack{"crack", "", 1, Numbers(NumberType::int32)}, surface{"surface", "", 1, Numbers(NumberType::int32)};
   for (std::size_t part = 0; part < 3; ++part) {
     for (std::size_t k = 0; k < cracks; ++k) {
-      data.line_offsets.push_back(static_cast<double>(part * vertices) + static_cast<double>(frame.begin[k + 1]));
+      data.line_ends.push_back(static_cast<double>(part * vertices) + static_cast<double>(frame.begin[k + 1]));
       crack.values.push_back(static_cast<double>(k));
       surface.values.push_back(static_cast<double>(part));
     }

@@ -7,9 +7,6 @@
 
 namespace crampon {
 
-/// How real numbers are stored: Float32 (relative error up to 6e-8) or Float64 (every bit).
-enum class Precision { single, full };
-
 /// Points as vertex cells with every field as point data; time, step, dimension and cell size as field data. Fields "id", "body",
 /// "material", "node", "velocity_field" and "crack" that hold whole numbers are stored as Int64 in both precisions.
 /// Throws std::runtime_error (path and reason; no file is left) and std::invalid_argument for a field of a wrong length.

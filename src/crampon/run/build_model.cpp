@@ -379,7 +379,6 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   if (!errors.empty()) throw InputError(std::move(errors));
   place_particles(bodies, model, out.state);
   start_tractions(out.state, model);
-  for (const auto& p : bodies.particles) out.original_volume.push_back(p.volume);
   return out;
 }
 

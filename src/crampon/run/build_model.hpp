@@ -9,7 +9,6 @@ template <int Dim>
 struct BuiltModel {
   Model<Dim> model;
   State<Dim> state;
-  std::vector<double> original_volume;  ///< per particle id, m3
 };
 
 /// Grid, laws, particles, cracks, conditions and loads of a problem. threads <= 0: all cores.

@@ -75,14 +75,14 @@ class Recorder {
   /// Throws what went wrong with the frame before.
   void write_frame() {
     if (writing_.valid()) writing_.get();
+    const Precision precision = problem_.output.full_precision ? Precision::full : Precision::single;
     Frames frames;
-    frames.particles = simulation_.particles(problem_.output.quantities);
+    frames.particles = simulation_.particles(problem_.output.quantities, precision);
     if (!problem_.cracks.empty()) frames.cracks = simulation_.cracks();
     // Before the first step nodes hold nothing.
     if (problem_.output.grid && simulation_.steps_done() > 0) frames.grid = simulation_.nodes();
     last_frame_ = simulation_.steps_done();
-    writing_ = std::async(std::launch::async, [this, frames = std::move(frames)]() mutable {
-      const Precision precision = problem_.output.full_precision ? Precision::full : Precision::single;
+    writing_ = std::async(std::launch::async, [this, precision, frames = std::move(frames)]() mutable {
       folder_.write_particles(std::move(*frames.particles), precision);
       if (frames.cracks) folder_.write_cracks(std::move(*frames.cracks), precision);
       if (frames.grid) folder_.write_grid(std::move(*frames.grid), precision);
@@ -189,7 +189,7 @@ void check_against_simulation(const Problem& problem, const Simulation& simulati
   const bool of_particles =
       std::any_of(problem.expects.begin(), problem.expects.end(), [](const ExpectInput& e) { return e.quantity.has_value(); });
   if (found.empty() && of_particles) {
-    const PointFrame frame = simulation.particles(problem.output.quantities);
+    const PointFrame frame = simulation.particles(problem.output.quantities, Precision::single);
     for (const ExpectInput& expect : problem.expects) try {
         if (expect.quantity) check_units(problem, expect, evaluate_quantity(frame, *expect.quantity).unit, found);
       } catch (const std::invalid_argument& error) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/move_cracks.hpp"
@@ -13,16 +14,41 @@ namespace crampon {
 
 namespace {
 
+/// Past the largest id.
+template <int Dim>
+std::size_t id_end(const State<Dim>& state) {
+  return state.particle_count + static_cast<std::size_t>(state.removed);
+}
+
 /// Slots of real particles in the order of their ids.
 template <int Dim>
-std::vector<std::size_t> slots_by_id(const State<Dim>& state) {
-  std::vector<std::size_t> slots;
-  slots.reserve(state.particle_count);
+std::vector<std::uint32_t> slots_by_id(const State<Dim>& state) {
+  std::vector<std::uint32_t> slots(id_end(state), padding_id);
   for (std::size_t p = 0; p < state.particles.size(); ++p) {
-    if (!state.particles.is_padding(p)) slots.push_back(p);
+    if (!state.particles.is_padding(p)) slots[state.particles.id[p]] = static_cast<std::uint32_t>(p);
   }
-  std::sort(slots.begin(), slots.end(), [&](std::size_t a, std::size_t b) { return state.particles.id[a] < state.particles.id[b]; });
+  std::erase(slots, padding_id);  // of removed particles
   return slots;
+}
+
+/// Rows of a frame, which stand in the order of ids.
+struct Rows {
+  std::size_t count;
+  std::vector<std::uint32_t> of_id;  ///< empty where no particle was removed: row and id are one
+
+  std::size_t operator[](std::uint32_t id) const { return of_id.empty() ? id : of_id[id]; }
+};
+
+template <int Dim>
+Rows find_rows(const State<Dim>& state) {
+  if (state.removed == 0) return {state.particle_count, {}};
+  std::vector<std::uint32_t> of_id(id_end(state), 0);
+  for (const std::uint32_t id : state.particles.id) {
+    if (id != padding_id) of_id[id] = 1;
+  }
+  std::uint32_t count = 0;
+  for (std::uint32_t& row : of_id) count += std::exchange(row, count);
+  return {count, std::move(of_id)};
 }
 
 /// All that a quantity may be made from, for one particle.
@@ -31,7 +57,8 @@ struct Sample {
   double stress[6];  ///< Cauchy, xx, yy, zz, xy, yz, xz
   double strain[6];
   double energy, volume, mass, volume_ratio;
-  int id, body, material;
+  int body, material;
+  std::uint32_t id;
 };
 
 struct Quantity {
@@ -88,7 +115,7 @@ void fill_sample(const State<Dim>& state, std::size_t p, const PackReport& repor
   s.volume = particles.volume(p);
   s.mass = particles.mass(p);
   s.volume_ratio = report.volume_ratio[l];
-  s.id = static_cast<int>(particles.id[p]);
+  s.id = particles.id[p];
   s.body = particles.body[p];
   s.material = static_cast<int>(material);
 }
@@ -124,31 +151,39 @@ std::vector<std::string> common_quantity_names() {
 }
 
 template <int Dim>
-PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, const std::vector<std::string>& names) {
+PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, const std::vector<std::string>& names, Precision precision) {
   std::vector<const Quantity*> wanted;
   for (const std::string& name : names.empty() ? common_quantity_names() : names) {
     const auto at = std::find_if(quantities().begin(), quantities().end(), [&](const Quantity& q) { return name == q.name; });
     if (at == quantities().end()) throw std::invalid_argument("there is no particle quantity \"" + name + "\"");
     wanted.push_back(&*at);
   }
-  const auto slots = slots_by_id(state);
+  const Rows rows = find_rows(state);
+  const auto numbers = [&](int components) {
+    const int in_plane = components == 3 ? 2 : components == 6 ? 4 : components;  // the others are zeros
+    return Numbers(real_type(precision), rows.count, components, Dim == 2 ? in_plane : components);
+  };
   PointFrame frame;
   frame.time = state.time;
   frame.step = state.step;
   frame.dimension = Dim;
   for (int k = 0; k < Dim; ++k) frame.cell = std::fmax(frame.cell, model.grid.cell[k]);
-  frame.positions.resize(slots.size() * 3);
-  frame.particle_size.resize(slots.size() * 3);
-  frame.fields.push_back({"id", "1", 1, std::vector<double>(slots.size())});
-  frame.fields.push_back({"body", "1", 1, std::vector<double>(slots.size())});
-  for (const Quantity* q : wanted) {
-    frame.fields.push_back({q->name, q->unit, q->components, std::vector<double>(slots.size() * static_cast<std::size_t>(q->components))});
-  }
-  std::vector<std::uint32_t> row(state.particles.size());
-  for (std::size_t i = 0; i < slots.size(); ++i) row[slots[i]] = static_cast<std::uint32_t>(i);
+  frame.positions = numbers(3);
+  const auto size_of = [&](const Material<Dim>& m) {
+    std::vector<double> size(3);
+    for (int k = 0; k < Dim; ++k) size[static_cast<std::size_t>(k)] = 2 * m.half_size[k] * model.grid.cell[k];
+    return size;
+  };
+  const bool one_size =
+      std::all_of(model.materials.begin(), model.materials.end(), [&](const auto& m) { return size_of(m) == size_of(model.materials[0]); });
+  frame.particle_size = one_size ? Numbers::repeated(real_type(precision), rows.count, size_of(model.materials[0])) : numbers(3);
+  frame.fields.push_back({"id", "1", 1, Numbers::labels<std::uint32_t>(rows.count)});
+  frame.fields.push_back({"body", "1", 1, Numbers::labels<std::uint16_t>(rows.count)});
+  for (const Quantity* q : wanted) frame.fields.push_back({q->name, q->unit, q->components, numbers(q->components)});
   parallel_for(state.blocks.runs.size(), model.threads, [&](std::size_t r) {
     const Run& run = state.blocks.runs[r];
     const Material<Dim>& material = model.materials[run.material];
+    const std::vector<double> size = size_of(material);
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
       const PackReport report = material.law->report(model.stress_state, Dim, &state.particles.stress[k * stress_size<Dim>],
                                                      state.particles.history.data() + k * state.particles.history_size);
@@ -156,13 +191,15 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
         if (state.particles.is_padding(p)) continue;
         Sample sample;
         fill_sample(state, p, report, run.material, sample);
-        const std::size_t i = row[p];
-        for (std::size_t c = 0; c < 3; ++c) frame.positions[3 * i + c] = sample.x[c];
-        for (int c = 0; c < Dim; ++c) frame.particle_size[3 * i + c] = 2 * material.half_size[c] * model.grid.cell[c];
-        frame.fields[0].values[i] = sample.id;
-        frame.fields[1].values[i] = sample.body;
+        const std::size_t row = rows[state.particles.id[p]];
+        frame.positions.set_row(row, sample.x.c.data());
+        if (!one_size) frame.particle_size.set_row(row, size.data());
+        frame.fields[0].values.set(row, sample.id);
+        frame.fields[1].values.set(row, sample.body);
         for (std::size_t q = 0; q < wanted.size(); ++q) {
-          wanted[q]->get(sample, &frame.fields[2 + q].values[i * static_cast<std::size_t>(wanted[q]->components)]);
+          double values[6];
+          wanted[q]->get(sample, values);
+          frame.fields[2 + q].values.set_row(row, values);
         }
       }
     }
@@ -250,7 +287,7 @@ std::uint64_t hash_state(const State<Dim>& state) {
   Hash hash;
   hash.add(state.time);
   hash.add(state.step);
-  for (const std::size_t p : slots_by_id(state)) {
+  for (const std::uint32_t p : slots_by_id(state)) {
     hash.add(state.particles.id[p]);
     hash.add(state.particles.position(p).c);
     hash.add(state.particles.velocity(p).c);
@@ -267,9 +304,9 @@ std::uint64_t hash_state(const State<Dim>& state) {
   return hash.value();
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                                    \
-  template PointFrame sample_particles<DIM>(const State<DIM>&, const Model<DIM>&, const std::vector<std::string>&); \
-  template PointFrame sample_nodes<DIM>(const State<DIM>&, const Model<DIM>&);                                      \
+#define CRAMPON_INSTANTIATE(DIM)                                                                                               \
+  template PointFrame sample_particles<DIM>(const State<DIM>&, const Model<DIM>&, const std::vector<std::string>&, Precision); \
+  template PointFrame sample_nodes<DIM>(const State<DIM>&, const Model<DIM>&);                                                 \
   template std::uint64_t hash_state<DIM>(const State<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)

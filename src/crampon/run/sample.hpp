@@ -10,9 +10,10 @@ namespace crampon {
 std::vector<std::string> particle_quantity_names();
 std::vector<std::string> common_quantity_names();
 
-/// Particles in the order of their ids. Throws std::invalid_argument for a quantity that does not exist.
+/// Particles in the order of their ids, rounded to `precision`. Throws std::invalid_argument for a quantity that does not exist.
 template <int Dim>
-PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, const std::vector<std::string>& quantities);
+PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, const std::vector<std::string>& quantities,
+                            Precision precision = Precision::full);
 
 template <int Dim>
 CrackFrame sample_cracks(const State<Dim>& state);

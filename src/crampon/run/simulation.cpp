@@ -79,7 +79,9 @@ class Engine final : public Simulation {
   }
 
   std::vector<std::string> particle_quantities() const override { return particle_quantity_names(); }
-  PointFrame particles(const std::vector<std::string>& names) const override { return sample_particles(state_, model_, names); }
+  PointFrame particles(const std::vector<std::string>& names, Precision precision) const override {
+    return sample_particles(state_, model_, names, precision);
+  }
   CrackFrame cracks() const override { return sample_cracks(state_); }
   PointFrame nodes() const override { return sample_nodes(state_, model_); }
 
@@ -228,12 +230,12 @@ class Engine final : public Simulation {
     const auto is_known = [&](const std::string& name) { return std::find(known.begin(), known.end(), name) != known.end(); };
     if (is_known(quantity)) {
       PointFrame frame = sample_particles(state_, model_, {quantity});
-      return {std::move(frame.fields.front().values), std::move(frame.fields.back())};
+      return {frame.fields.front().values.doubles(), std::move(frame.fields.back())};
     }
     const std::string field = quantity.substr(0, quantity.rfind('_'));
     PointFrame frame = sample_particles(state_, model_, is_known(field) ? std::vector{field} : known);
     Quantity all = evaluate_quantity(frame, quantity);
-    return {std::move(frame.fields.front().values), {quantity, all.unit, 1, std::move(all.values)}};
+    return {frame.fields.front().values.doubles(), {quantity, all.unit, 1, std::move(all.values)}};
   }
 
   double end_time_or_infinity() const { return time_.end ? end_ : std::numeric_limits<double>::infinity(); }

@@ -48,8 +48,8 @@ class Simulation {
 
   /// Names that particles() understands, in the order of the reference page.
   virtual std::vector<std::string> particle_quantities() const = 0;
-  /// Empty list: the common ones.
-  virtual PointFrame particles(const std::vector<std::string>& quantities = {}) const = 0;
+  /// Empty list: the common ones. precision: of the frame's numbers; single takes half the memory.
+  virtual PointFrame particles(const std::vector<std::string>& quantities = {}, Precision precision = Precision::full) const = 0;
   virtual CrackFrame cracks() const = 0;
   /// Nodes with mass, momentum and force of each velocity field of the last step.
   virtual PointFrame nodes() const = 0;
