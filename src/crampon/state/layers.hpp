@@ -44,6 +44,7 @@ class Signature {
     }
   }
   auto operator<=>(const Signature& b) const = default;
+  bool operator==(const Signature& b) const { return std::equal(begin(), end(), b.begin(), b.end()); }  // most hold none or one
 
  private:
   std::uint32_t size_ = 0;  // first: shorter signatures sort first, {} before all
