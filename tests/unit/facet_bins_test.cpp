@@ -103,6 +103,21 @@ TEST(FacetBins, ListExactlyTheSegmentsACellCanSee) {
       }
       ASSERT_EQ(bins.any_in_box(low, high), any);
     }
+    BinGrid bare = grid;
+    bare.reach_low = bare.reach_high = 0;
+    FacetBins cells;  // list what meets the cell itself
+    cells.build(bare, paths);
+    std::vector<FacetRef> room;
+    for (int box = 0; box < 50; ++box) {
+      const std::array<int, 2> low{pick(rng, -10, 10), pick(rng, -10, 10)}, high{low[0] + pick(rng, 0, 6), low[1] + pick(rng, 0, 6)};
+      const std::span<const FacetRef> got = bins.facets_of_box(low, high, room);
+      ASSERT_TRUE(std::is_sorted(got.begin(), got.end(), std::less_equal<>())) << "ascending, none twice";
+      for (int j = low[1]; j <= high[1]; ++j) {
+        for (int i = low[0]; i <= high[0]; ++i) {
+          for (const FacetRef& f : cells.facets_of_cell(i, j)) ASSERT_TRUE(std::binary_search(got.begin(), got.end(), f));
+        }
+      }
+    }
   }
   EXPECT_GT(listed, 20000);
   EXPECT_GT(crossings, 5000);

@@ -50,6 +50,8 @@ void FacetBins::collect_runs(const BinGrid& grid, std::span<const CrackPath> cra
 
 void FacetBins::build(const BinGrid& grid, std::span<const CrackPath> cracks) {
   width_ = std::int64_t{grid.cells[0]} + 2 * padding;
+  reach_low_ = grid.reach_low;
+  reach_high_ = grid.reach_high;
   collect_runs(grid, cracks);
   rows_.assign(static_cast<std::size_t>(grid.cells[1] + 2 * padding), Row{});
   for (const Run& run : runs_) {
@@ -85,6 +87,22 @@ void FacetBins::build(const BinGrid& grid, std::span<const CrackPath> cracks) {
     const std::size_t begin = rows_[static_cast<std::size_t>(run.row)].list(run.first) + 1;
     for (std::size_t k = begin; k <= begin + static_cast<std::size_t>(run.last - run.first); ++k) facets_[starts_[k]++] = run.facet;
   }
+}
+
+std::span<const FacetRef> FacetBins::facets_of_box(std::array<int, 2> low, std::array<int, 2> high, std::vector<FacetRef>& room) const {
+  const int seen = reach_low_ + reach_high_;  // cells beside its own that one cell sees
+  if (high[0] - low[0] <= seen && high[1] - low[1] <= seen) return facets_of_cell(low[0] + reach_low_, low[1] + reach_low_);
+  room.clear();
+  const int j_last = std::min(high[1], static_cast<int>(rows_.size()) - padding - 1);
+  for (int j = std::max(low[1], -padding); j <= j_last; ++j) {
+    const Row& row = rows_[static_cast<std::size_t>(j + padding)];
+    const int first = std::max(low[0], row.first), last = std::min(high[0], row.last);
+    if (first > last) continue;
+    room.insert(room.end(), facets_.begin() + starts_[row.list(first)], facets_.begin() + starts_[row.list(last) + 1]);
+  }
+  std::sort(room.begin(), room.end());
+  room.erase(std::unique(room.begin(), room.end()), room.end());
+  return room;
 }
 
 bool FacetBins::any_in_box(const std::array<int, 2>& low, const std::array<int, 2>& high) const {

@@ -45,6 +45,9 @@ class FacetBins {
     if (key < 0 || width_ == 0) return {};
     return facets_of_cell(static_cast<int>(key % width_) - padding, static_cast<int>(key / width_) - padding);
   }
+  /// Segments that a line within the cells low..high, both included, can meet, and others about; sorted by crack, then segment. They may lie
+  /// in `room`, until it is next used.
+  std::span<const FacetRef> facets_of_box(std::array<int, 2> low, std::array<int, 2> high, std::vector<FacetRef>& room) const;
   /// Does any cell of the box, both corners included, see a segment?
   bool any_in_box(const std::array<int, 2>& low, const std::array<int, 2>& high) const;
 
@@ -63,6 +66,7 @@ class FacetBins {
   void collect_runs(const BinGrid& grid, std::span<const CrackPath> cracks);
 
   std::int64_t width_ = 0;
+  int reach_low_ = 0, reach_high_ = 0;
   std::vector<Row> rows_;
   std::vector<std::uint32_t> starts_;
   std::vector<FacetRef> facets_;

@@ -7,7 +7,6 @@
 #include "crampon/core/error.hpp"
 #include "crampon/core/parallel.hpp"
 #include "crampon/crack/crossing.hpp"
-#include "crampon/crack/facet_bins.hpp"
 #include "crampon/step/assemble.hpp"
 #include "crampon/step/find_contacts.hpp"
 #include "crampon/step/instantiate.hpp"
@@ -16,13 +15,6 @@ namespace crampon {
 
 namespace {
 
-/// The cracks as the crossing test wants them; empty in 3D, where cracks are still to come.
-struct CrackView {
-  std::vector<std::vector<Vec<2>>> normals, original_normals;
-  std::vector<CrackPath> paths;
-  FacetBins bins;
-};
-
 std::vector<Vec<2>> segment_normals(const std::vector<Vec<2>>& vertices) {
   std::vector<Vec<2>> normals;
   for (std::size_t s = 0; s + 1 < vertices.size(); ++s) normals.push_back(segment_normal(vertices[s], vertices[s + 1]));
@@ -30,7 +22,11 @@ std::vector<Vec<2>> segment_normals(const std::vector<Vec<2>>& vertices) {
 }
 
 template <class Shape>
-void view_cracks(CrackView& view, const State<2>& state, const Model<2>& model) {
+void view_cracks(State<2>& state, const Model<2>& model) {
+  CrackView& view = state.crack_view;
+  view.normals.clear();
+  view.original_normals.clear();
+  view.paths.clear();
   for (const Crack<2>& crack : state.cracks.list) {
     view.normals.push_back(segment_normals(crack.plane));
     view.original_normals.push_back(segment_normals(crack.original));
@@ -48,9 +44,9 @@ class BlockAssignment {
   using T = Tile<Dim, Shape>;
 
  public:
-  BlockAssignment(const State<Dim>& state, const Model<Dim>& model, const CrackView& view, std::size_t b, BlockLayers<Dim>& layers,
+  BlockAssignment(const State<Dim>& state, const Model<Dim>& model, std::size_t b, BlockLayers<Dim>& layers,
                   std::vector<CrossingSums>& crossing)
-      : state_(state), model_(model), view_(view), block_(state.blocks.list[b]), layers_(layers), crossing_(crossing) {}
+      : state_(state), model_(model), view_(state.crack_view), block_(state.blocks.list[b]), layers_(layers), crossing_(crossing) {}
 
   bool needed() const {
     if (!block_.has_particles()) return false;
@@ -368,9 +364,8 @@ void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::
 
 template <int Dim, class Shape>
 void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model) {
-  CrackView view;
   if constexpr (Dim == 2) {
-    if (!state.cracks.empty()) view_cracks<Shape>(view, state, model);
+    if (!state.cracks.empty()) view_cracks<Shape>(state, model);
   }
   std::vector<std::vector<CrossingSums>> crossing(state.blocks.size());
   std::atomic<bool> fits{true};
@@ -378,7 +373,7 @@ void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model) {
     parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) {
       BlockLayers<Dim>& layers = state.nodes.layers[b];
       reset_layers(layers);
-      BlockAssignment<Dim, Shape> assignment(state, model, view, b, layers, crossing[b]);
+      BlockAssignment<Dim, Shape> assignment(state, model, b, layers, crossing[b]);
       assignment.begin();
       if (assignment.needed()) assignment.run();
       if (!assignment.finish()) fits = false;

@@ -63,8 +63,7 @@ void spread_tractions<2>(State<2>& state, const Model<2>& model) {
     const double stiffness = largest_stiffness(model.tractions[c].law);
     for (std::size_t v = 0; v < t.area.size(); ++v) {
       if (t.area[v] == 0 || t.history[v].failed != 0) continue;
-      const SurfaceNodes above = surfaces.nodes(surfaces.above(crack, v), crack.upper[v]);
-      const SurfaceNodes below = surfaces.nodes(surfaces.below(crack, v), crack.lower[v]);
+      const auto [above, below] = surfaces.faces(crack, v);
       t.between[v] = !above.empty() && !below.empty();
       if (!t.between[v]) continue;  // a side without mass bears nothing, and neither does the other then
       share_force(state, surfaces, above, t.force[v]);

@@ -15,7 +15,6 @@ std::optional<Vec<2>> plane_velocity(const State<2>& state, const Model<2>& mode
   Vec<2> sum{};
   double weight = 0;
   for (const NodeShare& node : nodes_around(state, model, x)) {
-    if (node.block == no_block || node.S == 0) continue;
     const BlockLayers<2>& layers = state.nodes.layers[node.block];
     Pack p = splat(0.);
     for (std::size_t l = 0; l < layers.node.size(); ++l) {
@@ -88,8 +87,9 @@ void move_cracks<2>(State<2>& state, const Model<2>& model, double dt) {
     motion[c].lower.resize(n);
     parallel_for(n, model.threads, [&](std::size_t v) {
       motion[c].plane[v] = plane_velocity(state, model, crack.plane[v]);
-      motion[c].upper[v] = surface_velocity(surfaces.nodes(surfaces.above(crack, v), crack.upper[v]));
-      motion[c].lower[v] = surface_velocity(surfaces.nodes(surfaces.below(crack, v), crack.lower[v]));
+      const CrackSurfaces::Faces faces = surfaces.faces(crack, v);
+      motion[c].upper[v] = surface_velocity(faces.upper);
+      motion[c].lower[v] = surface_velocity(faces.lower);
     });
     fill_gaps(motion[c].plane);
     for (std::size_t v = 0; v < n; ++v) {

@@ -17,6 +17,7 @@
 #include "crampon/state/nodes.hpp"
 #include "crampon/state/particles.hpp"
 #include "crampon/state/rigid.hpp"
+#include "crampon/step/crack_view.hpp"
 
 namespace crampon {
 
@@ -134,6 +135,7 @@ struct State {
   std::int64_t step = 0;
   Particles<Dim> particles;
   Cracks<Dim> cracks;
+  CrackView crack_view;
   Blocks<Dim> blocks;
   Nodes<Dim> nodes;
   std::vector<BlockScratch<Dim>> scratch;  ///< per block
