@@ -1,7 +1,9 @@
 /// What a step costs: inputs that take turns in one process, so that a change of the machine's speed hits all alike and ratios count.
 /// Prints JSON, a list with an entry for each; bench/run makes a table of it.
 ///
-///   step_cost [--threads N] [--seconds S] [--skip STEPS] CASE.toml|bare:KERNEL ...
+///   step_cost [--threads N] [--seconds S] [--skip STEPS] CASE.toml|bare:KERNEL|machine:copying|machine:multiply-adds ...
+///
+/// What stands for particles with machine: are bytes and operations, of one core whatever N.
 ///
 /// --skip: steps before measuring begins, 2 unless told, which sort the particles and touch the memory.
 
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <regex>
@@ -20,6 +23,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/baseline/kernel.hpp"
+#include "bench/machine_work.hpp"
 #include "crampon/input/read_problem.hpp"
 #include "crampon/run/simulation.hpp"
 
@@ -34,18 +38,22 @@ double cpu_seconds() {
 
 double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// An input of the engine, or a bare kernel.
+/// An input of the engine, or other work: a bare kernel, or what shows the machine's rates.
 struct Contestant {
   std::string name;
   std::unique_ptr<Simulation> simulation{};
-  std::unique_ptr<bench::Kernel> bare{};
+  std::function<void()> work{};
   double particles = 0;
   int steps = 0;                      ///< since measuring began
   std::vector<PhaseTime> before{};    ///< phases when measuring began
   std::vector<double> cpu{}, wall{};  ///< s per step, of each turn
 
   void step() {
-    simulation ? simulation->step(HUGE_VAL) : bare->step();
+    if (simulation) {
+      simulation->step(HUGE_VAL);
+    } else {
+      work();
+    }
     ++steps;
   }
 
@@ -78,8 +86,15 @@ std::unique_ptr<bench::Kernel> bare_kernel(const std::string& name, int threads)
 Contestant contestant(const std::string& name, int threads) {
   Contestant c{name};
   if (name.rfind("bare:", 0) == 0) {
-    c.bare = bare_kernel(name.substr(5), threads);
-    c.particles = static_cast<double>(c.bare->particles());
+    const std::shared_ptr<bench::Kernel> bare = bare_kernel(name.substr(5), threads);
+    c.work = [bare] { bare->step(); };
+    c.particles = static_cast<double>(bare->particles());
+  } else if (name == "machine:copying") {
+    c.work = [copying = std::make_shared<bench::Copying>()] { copying->step(); };
+    c.particles = bench::Copying::bytes();
+  } else if (name == "machine:multiply-adds") {
+    c.work = [multiply_adds = std::make_shared<bench::MultiplyAdds>()] { multiply_adds->step(); };
+    c.particles = bench::MultiplyAdds::operations();
   } else {
     c.simulation = Simulation::create(read_problem(name, {"time.steps=1000000000"}), threads);
     c.particles = static_cast<double>(c.simulation->size().particles);
@@ -164,7 +179,7 @@ int main(int argc, char** argv) {
       }
     }
     if (names.empty())
-      throw std::invalid_argument("no case; step_cost [--threads N] [--seconds S] [--skip STEPS] CASE.toml|bare:KERNEL ...");
+      throw std::invalid_argument("no case; step_cost [--threads N] [--seconds S] [--skip STEPS] CASE.toml|bare:KERNEL|machine:WORK ...");
     return crampon::measure(names, threads, seconds, skip);
   } catch (const std::exception& error) {
     fmt::print(stderr, "step_cost: {}\n", error.what());
