@@ -22,6 +22,7 @@ class Model:
         self.t = 0.0
         self.k = 0
         self.update = case.get("stress_update", "usavg")
+        self.positions = case.get("positions", "strain")
         self.shape = case.get("shape", "linear")
         self.half_size = 1 / (2 * case.get("ppc", 2))
         self.damping = function(case.get("damping", 0.0))
@@ -72,7 +73,7 @@ class Model:
                 p[k] += dt * self.f[key][k]
         self.adjust_contact(4)
         moved = self.update_particles()                        # Task 5
-        if self.update in ("musl", "usavg"):                   # Task 6
+        if self.update in ("musl", "usavg") or (self.update == "usf" and self.positions == "strain"):  # Task 6
             self.project_new_momentum()
             if self.order == "boundary_first":
                 self.impose_velocity(self.t + dt, task=6)
@@ -80,6 +81,8 @@ class Model:
             else:
                 self.adjust_contact(6)
                 self.impose_velocity(self.t + dt, task=6)
+        if self.positions == "strain":                         # USL: the velocity of Task 4 is the one that strains
+            moved = self.moved_positions()
         if self.update in ("usl", "musl"):
             self.update_stress(dt)
         elif self.update == "usavg":
@@ -333,15 +336,16 @@ class Model:
 
     def update_particles(self):
         """N03 Eq. 30: velocities now, positions returned (they advance at the end of the step)."""
-        moved = []
         for p in self.particles:
-            x = list(p.x)
             for key, S, G, R, _ in p.pairs:
                 for k in range(2):
-                    x[k] += self.dt * R[k] * S * self.p[key][k] / self.m[key]
                     p.v[k] += self.dt * R[k] * S * self.f[key][k] / self.m[key]
-            moved.append(x)
-        return moved
+        return self.moved_positions()
+
+    def moved_positions(self):
+        """x + dt sum S v with the nodal velocities at hand."""
+        return [[p.x[k] + self.dt * sum(R[k] * S * self.p[key][k] / self.m[key] for key, S, _, R, _ in p.pairs) for k in range(2)]
+                for p in self.particles]
 
     def project_new_momentum(self):
         """N03 Eq. 31."""

@@ -38,7 +38,8 @@ def emit(case, folder):
     lines += table("[grid]", {"origin": grid["origin"], "size": grid["size"], "cell": grid["cell"]})
     lines += table("[time]", {"steps": case["steps"], "step": case["dt"]})
     lines += table("[method]", {
-        "stress_update": case.get("stress_update", "usavg"), "shape_functions": case.get("shape", "linear"),
+        "stress_update": case.get("stress_update", "usavg"), "positions": case.get("positions", "strain"),
+        "shape_functions": case.get("shape", "linear"),
         "damping": formula(case.get("damping", 0.0)), "body_force": formula(case.get("body_force", (0.0, 0.0))),
         "boundary_order": case.get("order", "contact_first"), "fixed_force": case.get("fixed_force", "incremental")})
     lines += table("[contact]", dict({"reference_volume": "cell"}, **case.get("contact", {})))

@@ -126,7 +126,16 @@ def vertex_cases():
                cracks=[{"points": path((2, 6.8), (4.4, 6.9), (7.1, 7.1), (10, 7.2)), "law": "frictionless"}])
 
 
+def position_cases():
+    """Positions by N03 Eq. 30; with the default, all other cases move particles with the velocity that strains them."""
+    for update, shape in (("usavg", "gimp"), ("musl", "linear"), ("usf", "bspline")):
+        yield base("positions_n03_%s" % update, block((3, 4), (9, 10), cases.closing(0.5), shift=(0.03, -0.02)), stress_update=update, shape=shape,
+                   positions="n03", loads=PRESS, cracks=[{"points": cases.SLANTED, "law": "coulomb", "friction": 0.3}])
+    yield base("positions_strain_usf", block((3, 4), (9, 10), cases.closing(0.5), shift=(0.03, -0.02)), stress_update="usf", shape="gimp",
+               loads=PRESS, cracks=[{"points": cases.SLANTED, "law": "coulomb", "friction": 0.3}])
+
+
 def all_cases():
     families = (sequential_cases, joint_cases, meeting_plane_cases, gravity_cases, conditions_cases, crack_at_wall_cases,
-                volume_option_cases, vertex_cases)
+                volume_option_cases, vertex_cases, position_cases)
     return cases.all_cases() + [case for family in families for case in family()]

@@ -5,6 +5,8 @@ namespace crampon {
 
 enum class ShapeFunctionKind { linear, gimp, bspline };
 enum class StressUpdate { usl, musl, usf, usavg };
+/// With which nodal velocity particles move: with the one that strains them, or with that of N03 Eq. 30 (docs/theory/step.md, positions).
+enum class PositionUpdate { strain, n03 };
 
 /// By what crack points read the velocities of nodes: linear functions, or those of a particle without size (B-splines where particles
 /// have them).

@@ -50,6 +50,8 @@ const Declaration<MethodInput>& method_declaration() {
           .choice("stress_update", &MethodInput::stress_update,
                   {{"usl", StressUpdate::usl}, {"musl", StressUpdate::musl}, {"usf", StressUpdate::usf}, {"usavg", StressUpdate::usavg}},
                   "when stress is updated: last, last after a second extrapolation, first, or half first and half last")
+          .choice("positions", &MethodInput::positions, {{"strain", PositionUpdate::strain}, {"n03", PositionUpdate::n03}},
+                  "particles move with the velocity that strains them, or with that of N03 Eq. 30, which tears bodies in tension")
           .choice("shape_functions", &MethodInput::shape_functions,
                   {{"linear", ShapeFunctionKind::linear}, {"gimp", ShapeFunctionKind::gimp}, {"bspline", ShapeFunctionKind::bspline}},
                   "bilinear (trilinear), uGIMP, or quadratic B-spline")

@@ -154,7 +154,6 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
   BlockLedger<Dim>& ledger = state.scratch[b].ledger;
   ContactRules rules = rules_of(model.contact, task, dt);
   rules.hold = 0.25 * model.grid.smallest_cell();  // well above what gaps err by (docs/theory/contact.md, detection)
-  const bool re_extrapolates = model.stress_update == StressUpdate::musl || model.stress_update == StressUpdate::usavg;
   std::vector<Vec<Dim>> before;
   for (ContactNode<Dim>& node : contacts.nodes) {
     ContactGroup<Dim>* groups = contacts.groups.data() + node.first_group;
@@ -180,7 +179,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
       if (!solve_contact<Dim>(rules, groups, group_count, pairs, pair_count)) ++ledger.unsolved_nodes;
       double taken = 0, rubbed = 0;
       for (int g = 0; g < group_count; ++g) {
-        const double by_group = energy_taken(groups[g], task, before[static_cast<std::size_t>(g)], re_extrapolates);
+        const double by_group = energy_taken(groups[g], task, before[static_cast<std::size_t>(g)], model.re_extrapolates());
         taken += by_group;
         if (groups[g].rigid)
           book_rigid(groups[g], state.rigid[static_cast<std::size_t>(groups[g].body)].start, x_i, by_group, task, dt, ledger);

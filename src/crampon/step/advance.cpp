@@ -62,7 +62,6 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   const StressUpdate scheme = model.stress_update;
   const bool stress_first = scheme == StressUpdate::usf || scheme == StressUpdate::usavg;
   const bool stress_last = scheme != StressUpdate::usf;
-  const bool re_extrapolates = scheme == StressUpdate::musl || scheme == StressUpdate::usavg;
   const double stress_dt = scheme == StressUpdate::usavg ? 0.5 * dt : dt;  // N03 Eq. 35: half at a time for USAVG
   std::vector<Vec<Dim>> load_values;
   Vec<Dim> body_force;
@@ -91,7 +90,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   if (model.any_tractions()) phases.serial("crack tractions", [&] { spread_tractions(state, model); });
   phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });  // Tasks 3, 4
   phases.blocks("account loads", [&](B b) { account_loads<Dim, Shape>(state, model, b, dt, load_values, body_force); });
-  if (re_extrapolates) {
+  if (model.re_extrapolates()) {
     phases.blocks("update velocities", [&](B b) { update_velocities_and_project<Dim, Shape>(state, model, b, dt); });  // Tasks 5, 6
     phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });  // Task 6
   }
@@ -102,7 +101,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     update_tractions(state, model, dt);
   });
   phases.blocks("stress and positions", [&](B b) {  // Tasks 5, 6
-    finish_particles<Dim, Shape>(state, model, b, dt, stress_last ? stress_dt : 0., !re_extrapolates);
+    finish_particles<Dim, Shape>(state, model, b, dt, stress_last ? stress_dt : 0., !model.re_extrapolates());
   });
   end_rigid_motion(state);
   state.time += dt;

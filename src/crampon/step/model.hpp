@@ -105,6 +105,7 @@ struct Model {
   ValueFunction damping;                  ///< 1/s
   bool damped = false;
   StressUpdate stress_update = StressUpdate::usavg;
+  PositionUpdate positions = PositionUpdate::strain;
   ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
   CrackShapeFunctions crack_shape_functions = CrackShapeFunctions::linear;
   BoundaryOrder boundary_order = BoundaryOrder::contact_first;
@@ -126,6 +127,11 @@ struct Model {
   } contact;
   int threads = 1;
 
+  /// Task 6: are momenta extrapolated from particles once more, to strain them or to move them?
+  bool re_extrapolates() const {
+    return stress_update == StressUpdate::musl || stress_update == StressUpdate::usavg ||
+           (stress_update == StressUpdate::usf && positions == PositionUpdate::strain);
+  }
   bool any_body_force() const { return !body_force.empty(); }
   bool any_tractions() const {
     return std::any_of(tractions.begin(), tractions.end(), [](const CrackTraction& t) { return t.acts(); });

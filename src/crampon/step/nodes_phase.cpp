@@ -56,6 +56,21 @@ void find_velocities(State<Dim>& state, std::size_t b) {
   }
 }
 
+/// Particles are to move with the nodal velocities at hand.
+template <int Dim>
+void move_with_velocities(State<Dim>& state, std::size_t b) {
+  const std::size_t first = state.nodes.layers[b].slot(0, 0), end = state.nodes.layers[b].slot(state.nodes.layers[b].node.size(), 0);
+  for (std::size_t i = first; i < end; ++i) {
+    const NodalVector<Dim> v = state.nodes.velocity[i];
+    Pack& moving = state.nodes.motion[i].r[0];
+    if constexpr (Dim == 2) {
+      moving = Pack{v[0], v[1], moving[2], moving[3]};
+    } else {
+      moving = v;
+    }
+  }
+}
+
 /// f(slot of a node) for the own nodes of a block in all fields but those of rigid bodies.
 template <int Dim, class F>
 void for_deformable(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F f) {
@@ -165,6 +180,7 @@ void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t 
     adjust_contact(state, model, b, ContactTask::six, dt);
   }
   find_velocities(state, b);
+  if (model.positions == PositionUpdate::strain) move_with_velocities(state, b);
 }
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                   \

@@ -20,7 +20,8 @@ void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_
 template <int Dim, class Shape>
 void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt, const Vec<Dim>& body_force, double damping);
 
-/// Task 6: assembles the re-extrapolated momenta (N03 Eq. 31), adjusts contact, imposes velocities; leaves nodal velocities.
+/// Task 6: assembles the re-extrapolated momenta (N03 Eq. 31), adjusts contact, imposes velocities; leaves nodal velocities,
+/// with which particles also move unless N03 Eq. 30 is chosen.
 template <int Dim, class Shape>
 void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt);
 
