@@ -13,7 +13,8 @@ namespace crampon {
 enum class ContactState : std::uint8_t { open, slip, stick };
 
 /// A contact at a node, named by what does not change when a crack drifts across the node. Faces of a crack: the crack and the other
-/// cracks that separate both from the node. Two materials: their fields and the cracks that separate both from the node.
+/// cracks that separate both from the node; of several cracks with nothing between them: the first and the rest. Two materials: their
+/// fields and the cracks that separate both from the node.
 struct ContactName {
   static constexpr CrackId no_crack = 0xffffffffu;
   static constexpr std::uint16_t all_others = 0xffff;  ///< the virtual material of N13 Eq. 8
@@ -21,6 +22,7 @@ struct ContactName {
   CrackId crack = no_crack;
   std::uint16_t field_a = 0, field_b = 0;  ///< material fields; 0 for faces of a crack
   Signature others;
+  Signature rest;  ///< cracks between the two besides `crack`
   bool between_materials() const { return crack == no_crack; }
   auto operator<=>(const ContactName&) const = default;
 };

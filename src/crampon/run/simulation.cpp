@@ -10,6 +10,7 @@
 #include "crampon/output/quantity.hpp"
 #include "crampon/run/build_contact.hpp"
 #include "crampon/run/build_model.hpp"
+#include "crampon/run/overlapping_cracks.hpp"
 #include "crampon/run/sample.hpp"
 #include "crampon/shape/bspline.hpp"
 #include "crampon/shape/gimp.hpp"
@@ -36,6 +37,10 @@ class Engine final : public Simulation {
     place_probes(problem);
     initial_energy_ = energy();
     notes_at_start_ = odd_starts(model_, state_);
+    if constexpr (Dim == 2) {
+      for (std::string& note : overlapping_cracks(state_.cracks.list, model_.grid.smallest_cell()))
+        notes_at_start_.push_back(std::move(note));
+    }
   }
 
   void step(double longest) override {

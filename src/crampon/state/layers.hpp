@@ -43,6 +43,14 @@ class Signature {
       ++size_;
     }
   }
+  /// Those that b does not hold.
+  Signature without(const Signature& b) const {
+    Signature out;
+    for (const CrackId c : *this) {
+      if (!b.contains(c)) out.append(c);
+    }
+    return out;
+  }
   auto operator<=>(const Signature& b) const = default;
   bool operator==(const Signature& b) const { return std::equal(begin(), end(), b.begin(), b.end()); }  // most hold none or one
 
@@ -50,6 +58,9 @@ class Signature {
   std::uint32_t size_ = 0;  // first: shorter signatures sort first, {} before all
   std::array<CrackId, capacity> cracks_{};
 };
+
+/// By how many cracks two signatures differ.
+inline int differences(const Signature& a, const Signature& b) { return a.without(b).size() + b.without(a).size(); }
 
 /// A velocity field of a block: one material field (N13 sec. 1.2) on one side of the cracks.
 struct Layer {

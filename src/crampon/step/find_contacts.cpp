@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "crampon/step/contact_cloud.hpp"
+#include "crampon/step/cracks_between.hpp"
 #include "crampon/step/face_to_face.hpp"
 #include "crampon/step/instantiate.hpp"
 
@@ -26,20 +27,6 @@ Signature without_joined(const Signature& s, const Model<Dim>& model) {
     if (!joins(model, model.crack_laws[c])) out.append(c);
   }
   return out;
-}
-
-/// The one crack by which two signatures differ, or -1.
-std::int64_t only_difference(const Signature& a, const Signature& b) {
-  const Signature& longer = a.size() > b.size() ? a : b;
-  const Signature& shorter = a.size() > b.size() ? b : a;
-  if (longer.size() != shorter.size() + 1) return -1;
-  std::int64_t found = -1;
-  for (const CrackId c : longer) {
-    if (shorter.contains(c)) continue;
-    if (found >= 0) return -1;
-    found = c;
-  }
-  return found;
 }
 
 template <int Dim, class Shape>
@@ -321,35 +308,38 @@ class NodeFinder {
       }
     }
     for (std::size_t g = 0; g < sides_.size(); ++g) {
-      for (std::size_t h = g + 1; h < sides_.size(); ++h) pair_across(node, sides_[g], sides_[h]);
+      for (std::size_t h = g + 1; h < sides_.size(); ++h) {
+        if (face_each_other(g, h)) pair_across(node, sides_[g], sides_[h]);
+      }
     }
     // CONVENTIONS 13: [0][1], [2][3] of the first crack, then [0][2], [1][3] of the second.
     std::sort(out_.pairs.begin() + static_cast<std::ptrdiff_t>(begin), out_.pairs.end(),
               [](const ContactPair<Dim>& a, const ContactPair<Dim>& b) { return a.name < b.name; });
   }
 
+  /// Sides that differ by one crack do; by several, where no other side of this node lies between them (CONVENTIONS 50). N13 has pairs of
+  /// the first kind only.
+  bool face_each_other(std::size_t g, std::size_t h) const {
+    const int apart = differences(sides_[g].cracks, sides_[h].cracks);
+    if (apart == 1) return true;
+    return model_.contact.pairs == ContactPairs::joint && std::none_of(sides_.begin(), sides_.end(), [&](const Face<Dim>& s) {
+             return differences(sides_[g].cracks, s.cracks) < apart && differences(s.cracks, sides_[h].cracks) < apart;
+           });
+  }
+
   void pair_across(const ContactNode<Dim>& node, const Face<Dim>& g, const Face<Dim>& h) {
-    const std::int64_t c = only_difference(g.cracks, h.cracks);
-    if (c < 0) return;
+    const auto between = cracks_between(g.cracks, h.cracks, cracks_, model_.crack_laws);
+    if (!between) return;
+    const Face<Dim>&a = between->first_above ? g : h, &b = between->first_above ? h : g;
     ContactPair<Dim> pair;
-    pair.law = &model_.crack_laws[static_cast<std::size_t>(c)];
-    if (std::holds_alternative<NoContact>(*pair.law)) return;
-    const CrackAtNode<Dim>* crack = nullptr;
-    for (const auto& k : cracks_) {
-      if (k.crack == c) crack = &k;
-    }
-    if (!crack) return;
-    const bool g_across = g.cracks.contains(static_cast<CrackId>(c));
-    const bool g_above = g_across == (crack->side > 0);
-    const Face<Dim>&a = g_above ? g : h, &b = g_above ? h : g;
+    pair.law = between->law;
     const double fraction = a.m / (a.m + b.m);
     const bool bonded = std::holds_alternative<BondedContact>(*pair.law);
     if (!bonded && std::fmin(fraction, 1 - fraction) < model_.contact.mass_screen) return;  // CONVENTIONS 37
     pair.a = a.groups;
     pair.b = b.groups;
-    pair.name.crack = static_cast<CrackId>(c);
-    pair.name.others = g_across ? h.cracks : g.cracks;
-    if (!view_.see_across(place_, *crack, a, b, pair)) return;
+    pair.name = between->name;
+    if (!view_.see_across(place_, between->as_one, a, b, pair)) return;
     pair.previous = previous_state(node.number, pair);
     out_.pairs.push_back(pair);
   }
@@ -360,7 +350,7 @@ class NodeFinder {
       return ContactState::stick;  // glued from the start
     ContactKey key{number, pair.name};
     for (const auto& k : cracks_) {
-      if (k.crack == pair.name.crack || joins(model_, model_.crack_laws[k.crack])) continue;
+      if (k.crack == pair.name.crack || pair.name.rest.contains(k.crack) || joins(model_, model_.crack_laws[k.crack])) continue;
       const double before = state_.memory.side(number, k.crack);
       if (before * k.side < 0) key.name.others.toggle(k.crack);
     }
