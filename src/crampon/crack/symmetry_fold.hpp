@@ -5,6 +5,7 @@
 /// folded exactly when its line does not cross that crack, by the same predicates and tie rule.
 
 #include <array>
+#include <cstdint>
 #include <limits>
 
 #include "crampon/core/vector.hpp"
@@ -18,6 +19,7 @@ struct SymmetryPlane {
   int side = 1;   ///< +1 when the body lies at larger coordinates, -1 at smaller
   /// m; not finite: unbounded. The entries of `axis` are ignored.
   std::array<double, 3> from{-infinity, -infinity, -infinity}, to{infinity, infinity, infinity};
+  std::uint16_t condition = 0;  ///< under which the model has it among the conditions on nodes
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 };

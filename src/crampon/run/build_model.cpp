@@ -134,6 +134,7 @@ void build_conditions(const Problem& problem, Model<Dim>& model, std::vector<Dia
     for_nodes(model.grid, box, [&](std::int64_t number, const Vec<Dim>& x) {
       if (on_plane<Dim>(plane, x)) c.nodes.push_back(number);
     });
+    plane.condition = static_cast<std::uint16_t>(model.conditions.size());
     model.symmetries.push_back(plane);
     model.conditions.push_back(std::move(c));
     stated.push_back(&in);

@@ -15,6 +15,7 @@
 #include "crampon/step/project.hpp"
 #include "crampon/step/reorder.hpp"
 #include "crampon/step/rigid_motion.hpp"
+#include "crampon/step/symmetry_reactions.hpp"
 #include "crampon/step/update_particles.hpp"
 
 namespace crampon {
@@ -89,7 +90,10 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   });
   if (model.any_tractions()) phases.serial("crack tractions", [&] { spread_tractions(state, model); });
   phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });  // Tasks 3, 4
-  phases.blocks("account loads", [&](B b) { account_loads<Dim, Shape>(state, model, b, dt, load_values, body_force); });
+  phases.blocks("account loads", [&](B b) {
+    account_loads<Dim, Shape>(state, model, b, dt, load_values, body_force);
+    account_symmetry<Dim, Shape>(state, model, b, dt, load_values, body_force, damping);
+  });
   if (model.re_extrapolates()) {
     phases.blocks("update velocities", [&](B b) { update_velocities_and_project<Dim, Shape>(state, model, b, dt); });  // Tasks 5, 6
     phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });  // Task 6

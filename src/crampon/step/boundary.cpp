@@ -193,10 +193,7 @@ void impose_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
     }
     f[c.axis] = fixed;
     const double reaction = fixed - free;
-    auto& reactions = scratch.ledger.reactions;
-    auto at = std::find_if(reactions.begin(), reactions.end(), [&](const auto& r) { return r.condition == c.condition; });
-    if (at == reactions.end()) at = reactions.insert(reactions.end(), {c.condition, {}});
-    at->force[c.axis] += reaction;
+    scratch.ledger.add_reaction(c.condition, c.axis, reaction);
     if (symmetry) return;
     scratch.ledger.boundary_work += reaction * 0.5 * (c.v_old + c.v_new) * dt;
     // A sudden start is an inelastic impact: what the condition gives and the body does not get.

@@ -1,6 +1,7 @@
 #pragma once
 /// What changes during a run.
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -56,6 +57,11 @@ struct BlockLedger {
   std::vector<BodyReaction> rigid;
   int unsolved_nodes = 0;  ///< contact at a node did not converge
   int crowded_nodes = 0;   ///< nodes with more than two cracks
+  void add_reaction(std::uint16_t condition, int axis, double force) {
+    auto at = std::find_if(reactions.begin(), reactions.end(), [&](const Reaction& r) { return r.condition == condition; });
+    if (at == reactions.end()) at = reactions.insert(reactions.end(), {condition, {}});
+    at->force[axis] += force;
+  }
   void clear() {
     interface_energy = load_work = body_work = damping = contact_loss = friction_loss = boundary_work = 0;
     reactions.clear();
