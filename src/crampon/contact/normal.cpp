@@ -13,6 +13,9 @@ namespace {
 /// normals beside a corner closer to the face, larger ones smooth those along curved faces.
 constexpr double lambda = 1e-2;
 
+/// Rounding does not choose between two that are as large: the first is taken (CONVENTIONS 32).
+constexpr double tie = 1 - 1e-10;
+
 template <int Dim>
 using Coefficients = std::array<double, Dim + 1>;  ///< beta along the axes, in cells, then the constant
 
@@ -185,9 +188,9 @@ Vec<Dim> gradient_normal(GradientNormal choice, const VolumeGradient<Dim>& a, co
   if (size_a == 0 || size_b == 0) return size_a > 0 ? of_a : of_b;
   switch (choice) {
     case GradientNormal::largest_gradient:
-      return size_a >= size_b ? of_a : of_b;
+      return size_a >= tie * size_b ? of_a : of_b;
     case GradientNormal::more_volume:
-      return a.V >= b.V ? of_a : of_b;
+      return a.V >= tie * b.V ? of_a : of_b;
     case GradientNormal::average:
       return normalized(a.g - b.g);
   }

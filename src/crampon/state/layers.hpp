@@ -31,6 +31,12 @@ class Signature {
     cracks_[size_++] = c;
     return true;
   }
+  /// The same in any order, for a crack that it does not contain.
+  bool insert(CrackId c) {
+    if (size_ == capacity) return false;
+    toggle(c);
+    return true;
+  }
   /// Present becomes absent and the other way round.
   void toggle(CrackId c) {
     auto* at = std::lower_bound(cracks_.data(), cracks_.data() + size_, c);

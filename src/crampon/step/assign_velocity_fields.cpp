@@ -9,34 +9,14 @@
 #include "crampon/crack/crossing.hpp"
 #include "crampon/step/assemble.hpp"
 #include "crampon/step/find_contacts.hpp"
+#include "crampon/step/folded_pairs.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/packs.hpp"
+#include "crampon/step/view_cracks.hpp"
 
 namespace crampon {
 
 namespace {
-
-std::vector<Vec<2>> segment_normals(const std::vector<Vec<2>>& vertices) {
-  std::vector<Vec<2>> normals;
-  for (std::size_t s = 0; s + 1 < vertices.size(); ++s) normals.push_back(segment_normal(vertices[s], vertices[s + 1]));
-  return normals;
-}
-
-template <class Shape>
-void view_cracks(State<2>& state, const Model<2>& model) {
-  CrackView& view = state.crack_view;
-  view.normals.clear();
-  view.original_normals.clear();
-  view.paths.clear();
-  for (const Crack<2>& crack : state.cracks.list) {
-    view.normals.push_back(segment_normals(crack.plane));
-    view.original_normals.push_back(segment_normals(crack.original));
-  }
-  for (std::size_t c = 0; c < state.cracks.size(); ++c) {
-    view.paths.push_back({state.cracks.list[c].plane, view.normals[c], state.cracks.list[c].closed, view.original_normals[c]});
-  }
-  constexpr int reach = Shape::width == 3 ? 1 : 0;
-  view.bins.build({model.grid.origin, model.grid.cell, model.grid.cells, reach, reach}, view.paths);
-}
 
 /// What one block finds out about its particles.
 template <int Dim, class Shape>
@@ -132,17 +112,18 @@ class BlockAssignment {
     for (int k = 0; k < Dim; ++k) x_p[k] = x[k][l];
     std::array<PairTarget, T::stencil> target;
     std::array<Signature, T::stencil> signature;
-    std::array<Vec<Dim>, T::stencil> x_i;
+    std::array<Vec<Dim>, T::stencil> x_i;  // where the line from the particle goes
+    std::array<int, T::stencil> mirror;
     const auto lowest = unflatten<Dim>(stencil.base[l], T::side);
     for (int n = 0; n < T::stencil; ++n) {
       auto node = unflatten<Dim>(n, Shape::width);
       for (int k = 0; k < Dim; ++k) node[k] += lowest[k] + first[k] - T::offset;
       x_i[n] = model_.grid.node_position(node);
       target[n] = {static_cast<std::uint16_t>(stencil.base[l] + T::steps[n]), own_layer_, 0};
-      fold(x_p, node, x_i[n], target[n]);
+      mirror[n] = fold(x_p, node, x_i[n], target[n]);
     }
     if constexpr (Dim == 2) {
-      if (!view_.bins.empty() && sees_cracks_) cross(stencil, x, l, x_p, x_i, target, signature, padding);
+      if (!view_.bins.empty() && sees_cracks_) cross(stencil, x, l, x_p, x_i, target, mirror, signature, padding);
     }
     for (int n = 0; n < T::stencil; ++n) {
       if (!signature[n].empty()) {
@@ -154,21 +135,29 @@ class BlockAssignment {
     }
   }
 
-  /// CONVENTIONS 29: a pair whose node lies beyond a symmetry plane goes to the mirror node.
-  void fold(const Vec<Dim>& x_p, IndexVector<Dim> node, Vec<Dim>& x_i, PairTarget& target) const {
-    for (const SymmetryPlane& plane : model_.symmetries) {
-      if (target.flip >> plane.axis & 1u || !folds<Dim>(plane, x_p, x_i)) continue;
-      const int on = static_cast<int>(std::lround((plane.at - model_.grid.origin[plane.axis]) * model_.grid.inverse_cell[plane.axis]));
-      const int mirror = 2 * on - node[plane.axis];
-      target.node = static_cast<std::uint16_t>(target.node + (mirror - node[plane.axis]) * power(T::side, plane.axis));
-      target.flip = static_cast<std::uint8_t>(target.flip | 1u << plane.axis);
-      node[plane.axis] = mirror;
-      x_i[plane.axis] = model_.grid.node_coordinate(plane.axis, mirror);
+  /// CONVENTIONS 29: a pair whose node lies beyond a symmetry plane goes to the mirror node. Returns the plane, through which the line to
+  /// the node beyond goes and meets the images of cracks there, or -1. Of images in several planes none are known: the line to them goes to
+  /// the mirror node.
+  int fold(const Vec<Dim>& x_p, IndexVector<Dim> node, Vec<Dim>& x_i, PairTarget& target) const {
+    const IndexVector<Dim> beyond = node;
+    Vec<Dim> x_mirror = x_i;
+    int planes = 0;
+    const SymmetryPlane* through = nullptr;
+    target.flip = static_cast<std::uint8_t>(for_folds<Dim>(model_, x_p, node, x_mirror, [&](const SymmetryPlane& plane) {
+      ++planes;
+      through = &plane;
+    }));
+    for (int k = 0; k < Dim; ++k) {
+      target.node = static_cast<std::uint16_t>(target.node + (node[k] - beyond[k]) * power(T::side, k));
     }
+    if (planes == 1) return static_cast<int>(through - model_.symmetries.data());
+    x_i = x_mirror;
+    return -1;
   }
 
   void cross(const StencilFactors<Dim, Shape>& stencil, const Pack* x, int l, const Vec<2>& x_p, const std::array<Vec<2>, T::stencil>& x_i,
-             const std::array<PairTarget, T::stencil>& target, std::array<Signature, T::stencil>& signature, bool padding) {
+             const std::array<PairTarget, T::stencil>& target, const std::array<int, T::stencil>& mirror,
+             std::array<Signature, T::stencil>& signature, bool padding) {
     const auto cell = cell_of(x, l);
     const auto facets = view_.bins.facets_of_cell(cell[0], cell[1]);
     std::array<Crossing, T::stencil> crossings;
@@ -180,14 +169,16 @@ class BlockAssignment {
       for (int n = 0; n < T::stencil; ++n) {
         // A corner of the stencil that the particle does not reach (uGIMP) is no pair.
         if (!crossings[n].crosses() || stencil.weight(n, l) == 0) continue;
-        fits_ = signature[n].append(c) && fits_;
+        const CrackId crack = mirror[n] < 0 ? c : seen_in_mirror(view_, c, static_cast<std::size_t>(mirror[n]));
+        fits_ = signature[n].insert(crack) && fits_;
         // Padding follows the particle it sits on, but is not a pair of its own.
-        if (!padding) add_crossing(c, target[n].node, crossings[n]);
+        if (!padding) add_crossing(crack, target[n].node, crossings[n], mirror[n] < 0 ? 0u : target[n].flip);
       }
     }
   }
 
-  void add_crossing(CrackId c, int node, const Crossing& crossing) {
+  /// \param flip  components of the normals that the node in the mirror sees turned round
+  void add_crossing(CrackId c, int node, const Crossing& crossing, unsigned flip) {
     std::vector<CrackId>& cracks = layers_.tile_cracks;
     const auto at = static_cast<std::size_t>(std::find(cracks.begin(), cracks.end(), c) - cracks.begin());
     if (at == cracks.size()) {
@@ -195,8 +186,8 @@ class BlockAssignment {
       crossing_.resize(cracks.size() * T::nodes, CrossingSums{});
     }
     CrossingSums& sum = crossing_[at * T::nodes + static_cast<std::size_t>(node)];
-    sum.r[0] += Pack{crossing.normal_sum[0], crossing.normal_sum[1], double(crossing.side()), 1.};
-    sum.r[1] += Pack{crossing.original_sum[0], crossing.original_sum[1], 0., 0.};
+    sum.r[0] += flipped(Pack{crossing.normal_sum[0], crossing.normal_sum[1], double(crossing.side()), 1.}, flip);
+    sum.r[1] += flipped(Pack{crossing.original_sum[0], crossing.original_sum[1], 0., 0.}, flip);
   }
 
   int layer_number(const Layer& layer) {
@@ -365,7 +356,7 @@ void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::
 template <int Dim, class Shape>
 void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model) {
   if constexpr (Dim == 2) {
-    if (!state.cracks.empty()) view_cracks<Shape>(state, model);
+    if (!state.cracks.empty()) view_cracks(state, model, Shape::width == 3 ? 1 : 0);
   }
   std::vector<std::vector<CrossingSums>> crossing(state.blocks.size());
   std::atomic<bool> fits{true};

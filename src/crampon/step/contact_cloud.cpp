@@ -62,8 +62,7 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
                   // The mirror stands midway between the node and the one beyond it for which the pair was.
                   const int beyond = unflatten<Dim>(stencil.of.lowest(l) + T::steps[n], T::side)[k] + first[k] - T::offset;
                   point.x[k] = model.grid.node_coordinate(k, beyond) - point.x[k];
-                  for (auto& column : point.F) column[k] = -column[k];
-                  point.F[k] = -point.F[k];
+                  point.mirror_deformation(k);
                 } else {
                   point.x[k] -= x_i;
                 }

@@ -25,6 +25,11 @@ struct CloudPoint {
     for (int k = 0; k < Dim; ++k) r[k] *= half_size[k];
     return r;
   }
+  /// Its F in a mirror across axis k.
+  void mirror_deformation(int k) {
+    for (auto& column : F) column[k] = -column[k];
+    F[k] = -F[k];
+  }
 };
 
 /// Particles by own node of a block, in the order of tiles and packs, so that sums over them do not depend on threads.
@@ -38,6 +43,18 @@ class ContactCloud {
     for (auto& points : points_) points.clear();
   }
   std::vector<CloudPoint<Dim>>& at(int node) { return points_[static_cast<std::size_t>(node)]; }
+  /// Adds the images of the particles of a node on a symmetry plane across axis k.
+  void add_images(int node, int k) {
+    auto& points = at(node);
+    const std::size_t count = points.size();
+    points.reserve(2 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      CloudPoint<Dim> image = points[i];
+      image.x[k] = -image.x[k];
+      image.mirror_deformation(k);
+      points.push_back(image);
+    }
+  }
 
  private:
   std::vector<std::vector<CloudPoint<Dim>>> points_{block_nodes<Dim>};

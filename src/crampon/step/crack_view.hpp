@@ -8,11 +8,21 @@
 
 namespace crampon {
 
+/// A crack as the whole body has it: one that ends on a symmetry plane goes on as its image behind the plane.
+struct SeenCrack {
+  std::vector<Vec<2>> vertices;                   ///< m
+  std::vector<Vec<2>> normals, original_normals;  ///< of its segments
+  bool closed = false;
+};
+
 /// Paths and bins as the crossing tests want them; empty in 3D, where cracks are still to come.
 struct CrackView {
-  std::vector<std::vector<Vec<2>>> normals, original_normals;  ///< of segments, per crack
-  std::vector<CrackPath> paths;                                ///< per crack; into the normals and State::cracks
-  FacetBins bins;                                              ///< by what the particles of a cell reach
+  std::size_t cracks = 0;
+  /// [crack], then [plane][crack]: images in symmetry planes of cracks that come near one without ending on it; most are empty. An image is a
+  /// crack of its own, with the same laws.
+  std::vector<SeenCrack> seen;
+  std::vector<CrackPath> paths;  ///< into `seen`
+  FacetBins bins;                ///< by what the particles of a cell reach
 };
 
 }  // namespace crampon

@@ -8,7 +8,7 @@ namespace crampon {
 
 template <int Dim>
 std::optional<CracksBetween<Dim>> cracks_between(const Signature& first, const Signature& second,
-                                                 const std::vector<CrackAtNode<Dim>>& cracks, const std::vector<ContactLawSpec>& laws) {
+                                                 const std::vector<CrackAtNode<Dim>>& cracks, const Model<Dim>& model) {
   CracksBetween<Dim> out;
   out.name.others = first.without(first.without(second));
   int acting = 0;
@@ -22,7 +22,7 @@ std::optional<CracksBetween<Dim>> cracks_between(const Signature& first, const S
     } else {
       out.name.rest.append(crack.crack);
     }
-    const ContactLawSpec& law = laws[crack.crack];
+    const ContactLawSpec& law = model.law_across(crack.crack);
     if (crack.side == 0 || std::holds_alternative<NoContact>(law)) continue;
     const double to_second = first_across == (crack.side > 0) ? 1 : -1;
     if (acting++ == 0) up = to_second, out.as_one = crack;
@@ -38,7 +38,7 @@ std::optional<CracksBetween<Dim>> cracks_between(const Signature& first, const S
 
 #define CRAMPON_INSTANTIATE(DIM)                                                                                                           \
   template std::optional<CracksBetween<DIM>> cracks_between<DIM>(const Signature&, const Signature&, const std::vector<CrackAtNode<DIM>>&, \
-                                                                 const std::vector<ContactLawSpec>&);
+                                                                 const Model<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE

@@ -18,10 +18,9 @@ struct CracksBetween {
 
 /// \param first, second  cracks that part either side from the node
 /// \param cracks         what Task 1 left at the node about each crack
-/// \param laws           per crack
 /// Empty when none of the cracks between them acts: contact acts as soon as one does.
 template <int Dim>
 std::optional<CracksBetween<Dim>> cracks_between(const Signature& first, const Signature& second,
-                                                 const std::vector<CrackAtNode<Dim>>& cracks, const std::vector<ContactLawSpec>& laws);
+                                                 const std::vector<CrackAtNode<Dim>>& cracks, const Model<Dim>& model);
 
 }  // namespace crampon

@@ -39,22 +39,28 @@ Vec<Dim> apart_at_start(const Face<Dim>& a, const Face<Dim>& b) {
 }  // namespace
 
 template <int Dim>
-FaceToFace<Dim>::FaceToFace(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {}
+Mirrors mirrors_at(const Model<Dim>& model, std::int64_t node_number) {
+  Mirrors mirrors;
+  for (const SymmetryPlane& plane : model.symmetries) {
+    const std::vector<std::int64_t>& nodes = model.conditions[plane.condition].nodes;
+    if (mirrors.axes >> plane.axis & 1u || !std::binary_search(nodes.begin(), nodes.end(), node_number)) continue;
+    mirrors.axes |= 1u << plane.axis;
+    mirrors.images *= 2;
+  }
+  return mirrors;
+}
+template Mirrors mirrors_at<2>(const Model<2>&, std::int64_t);
+template Mirrors mirrors_at<3>(const Model<3>&, std::int64_t);
 
 template <int Dim>
-void FaceToFace<Dim>::drop_mirrored(std::int64_t number, Vec<Dim>& n) const {
-  for (const VelocityCondition<Dim>& c : model_.conditions) {
-    if (c.symmetry && std::binary_search(c.nodes.begin(), c.nodes.end(), number)) n[c.components.front().axis] = 0;
-  }
-}
+FaceToFace<Dim>::FaceToFace(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {}
 
 template <int Dim>
 bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const Face<Dim>& facing,
                                    ContactPair<Dim>& pair) {
   Vec<Dim> n = model_.field_normals[std::size_t{a.field} * model_.fields.size() + facing.field];
   if (n == Vec<Dim>{}) n = found_normal(place, a, facing);
-  drop_mirrored(place.number, n);
-  pair.n = normalized(n);
+  pair.n = normalized(place.mirrors.mean(n));
   if (pair.n == Vec<Dim>{}) return false;
   const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
   double depth = 0;  // of the node before a rigid face, in cells
@@ -62,7 +68,8 @@ bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Di
   if (depth >= deepest_held) return false;
   pair.volume_ratio = relative_volume(place);
   pair.gap = gap(model_.contact.material_detection, place, a, b, pair, pair.n);
-  if (needs_area(*pair.law)) pair.area = b.rigid ? area_on_rigid(a, b, depth, pair.n, plane) : area_between(a, b, pair.n);
+  if (needs_area(*pair.law))
+    pair.area = (b.rigid ? area_on_rigid(a, b, depth, pair.n, plane) : area_between(a, b, pair.n)) / place.mirrors.images;
   look_back(place, a, b, pair);
   return true;
 }
@@ -88,8 +95,7 @@ bool FaceToFace<Dim>::see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& 
   const auto body = static_cast<std::size_t>(b.wall);
   const WallView<Dim> view = model_.rigid_bodies[body].wall->seen_from(place.x, state_.rigid[body].start.centre);
   Vec<Dim> n = -view.out;
-  drop_mirrored(place.number, n);
-  pair.n = normalized(n);
+  pair.n = normalized(place.mirrors.mean(n));
   if (pair.n == Vec<Dim>{}) return false;
   const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
   if (view.distance >= deepest_held * plane.h) return false;
@@ -97,7 +103,7 @@ bool FaceToFace<Dim>::see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& 
   const double d = edge.edge_distance(-dot(a.x, pair.n) / (a.m * plane.h), plane);
   pair.gap = d * plane.h + view.distance;
   pair.by_gap = true;
-  if (needs_area(*pair.law)) pair.area = area_on_rigid(a, b, view.distance / plane.h, pair.n, plane);
+  if (needs_area(*pair.law)) pair.area = area_on_rigid(a, b, view.distance / plane.h, pair.n, plane) / place.mirrors.images;
   if (needs_history(*pair.law)) pair.history = a.history / a.m;
   return true;
 }
@@ -109,7 +115,7 @@ bool FaceToFace<Dim>::see_across(const MeetingPlace<Dim>& place, const CrackAtNo
   pair.n = crack.n;
   pair.volume_ratio = relative_volume(place);
   pair.gap = gap(model_.contact.detection, place, a, b, pair, crack.N);
-  if (needs_area(*pair.law)) pair.area = area_between(a, b, pair.n);
+  if (needs_area(*pair.law)) pair.area = area_between(a, b, pair.n) / place.mirrors.images;
   look_back(place, a, b, pair);
   return true;
 }
@@ -151,7 +157,7 @@ double FaceToFace<Dim>::relative_volume(const MeetingPlace<Dim>& place) const {
   double reference = cell_volume();
   if (model_.contact.reference_volume == ReferenceVolume::initial && !state_.initial_volume.empty()) {
     const auto initial = state_.initial_volume.find(place.number);
-    if (initial != state_.initial_volume.end() && initial->second > 0) reference = initial->second;
+    if (initial != state_.initial_volume.end() && initial->second > 0) reference = initial->second * place.mirrors.images;
   }
   return place.volume / reference;
 }

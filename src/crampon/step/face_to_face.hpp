@@ -11,6 +11,27 @@
 
 namespace crampon {
 
+/// The symmetry planes on which a node lies.
+struct Mirrors {
+  unsigned axes = 0;  ///< bit k: one across axis k
+  double images = 1;  ///< how many times what the model has is there
+
+  /// A vector and its image together: the component across is gone.
+  template <int Dim>
+  Vec<Dim> together(Vec<Dim> a) const {
+    for (int k = 0; k < Dim; ++k) a[k] *= axes >> k & 1u ? 0. : images;
+    return a;
+  }
+  /// The mean of both.
+  template <int Dim>
+  Vec<Dim> mean(Vec<Dim> a) const {
+    for (int k = 0; k < Dim; ++k) a[k] *= axes >> k & 1u ? 0. : 1.;
+    return a;
+  }
+};
+template <int Dim>
+Mirrors mirrors_at(const Model<Dim>& model, std::int64_t node_number);
+
 /// What Task 1 left at a node about one crack: unit normals now and at the start, and the side of the particles across.
 template <int Dim>
 struct CrackAtNode {
@@ -48,12 +69,14 @@ struct Face {
   }
 };
 
-/// The node at which they meet.
+/// The node at which they meet. On a symmetry plane it sees the images too, as in the whole body: faces and points are with their images,
+/// and what the pair gets is the part of the model.
 template <int Dim>
 struct MeetingPlace {
   std::int64_t number = 0;  ///< in the grid
   Vec<Dim> x;               ///< m
   double volume = 0;        ///< of all faces there, m3; in 2D m2
+  Mirrors mirrors;
   const std::vector<CloudPoint<Dim>>* points = nullptr;
 };
 
@@ -61,9 +84,6 @@ template <int Dim>
 class FaceToFace {
  public:
   FaceToFace(const State<Dim>& state, const Model<Dim>& model);
-
-  /// On a symmetry plane a surface and its mirror image meet: their mean normal lies in the plane.
-  void drop_mirrored(std::int64_t number, Vec<Dim>& n) const;
 
   /// These set normal, gap and area of a pair; false when there is no direction: nothing to hold against.
   /// Materials: `facing` gives law and normal, b itself or the most of what N13's virtual material b is made of.

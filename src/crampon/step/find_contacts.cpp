@@ -24,7 +24,7 @@ template <int Dim>
 Signature without_joined(const Signature& s, const Model<Dim>& model) {
   Signature out;
   for (const CrackId c : s) {
-    if (!joins(model, model.crack_laws[c])) out.append(c);
+    if (!joins(model, model.law_across(c))) out.append(c);
   }
   return out;
 }
@@ -165,18 +165,20 @@ class NodeFinder {
 
   void read_faces(const ContactNode<Dim>& node) {
     faces_.assign(node.end_group - node.first_group, {});
+    const Mirrors mirrors = mirrors_at(model_, node.number);
     for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
       const ContactField& field = out_.fields[f];
       const std::size_t i = layers_.slot(field.layer, node.node);
       const ContactSums<Dim>& sums = state_.nodes.contact[i];
       Face<Dim> part;
       part.groups = only(field.group);
-      part.m = state_.nodes.momentum[i][Dim];
-      part.volume = part.field_volume = sums.volume();
-      part.x = sums.present();
-      part.X = sums.original();
-      part.g = sums.gradient();
-      part.history = sums.history();
+      const double m = state_.nodes.momentum[i][Dim];
+      part.m = mirrors.images * m;
+      part.volume = part.field_volume = mirrors.images * sums.volume();
+      part.x = mirrors.together(sums.present());
+      part.X = mirrors.together(sums.original());
+      part.g = mirrors.together(sums.gradient());
+      part.history = mirrors.images * sums.history();
       part.field = part.lowest_field = layer(field.layer).field;
       Face<Dim>& face = faces_[static_cast<std::size_t>(field.group)];
       face.cracks = without_joined(layer(field.layer).cracks, model_);
@@ -184,7 +186,7 @@ class NodeFinder {
       face.whole = model_.is_whole(part.field);
       face.add(part);
       ContactGroup<Dim>& group = out_.groups[node.first_group + static_cast<std::uint32_t>(field.group)];
-      group.m += part.m;
+      group.m += m;
       group.rigid = face.rigid;
       group.body = model_.fields[part.field].body;
     }
@@ -198,12 +200,15 @@ class NodeFinder {
       face.wall = group.body;
       face.field = face.lowest_field = model_.rigid_bodies[static_cast<std::size_t>(group.body)].field;
     }
-    place_ = {node.number, position_of(node.node), 0, &cloud_.at(node.node)};
+    place_ = {node.number, position_of(node.node), 0, mirrors, &cloud_.at(node.node)};
     for (const Face<Dim>& face : faces_) place_.volume += face.volume;
     for (CloudPoint<Dim>& point : cloud_.at(node.node)) {
       for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
         if (out_.fields[f].layer == point.layer) point.group = only(out_.fields[f].group);
       }
+    }
+    for (int k = 0; k < Dim; ++k) {
+      if (mirrors.axes >> k & 1u) cloud_.add_images(node.node, k);
     }
   }
 
@@ -216,10 +221,8 @@ class NodeFinder {
       crack.crack = layers_.node_cracks[c];
       Vec<Dim> n, N;
       for (int k = 0; k < 2; ++k) n[k] = sum.r[0][k], N[k] = sum.r[1][k];
-      view_.drop_mirrored(node.number, n);
-      view_.drop_mirrored(node.number, N);
-      crack.n = normalized(n);
-      crack.N = normalized(N);
+      crack.n = normalized(place_.mirrors.mean(n));
+      crack.N = normalized(place_.mirrors.mean(N));
       crack.side = sum.r[0][2];
       cracks_.push_back(crack);
       out_.sides.push_back({node.number, crack.crack, static_cast<std::int8_t>((crack.side > 0 ? 1 : 0) - (crack.side < 0 ? 1 : 0))});
@@ -328,7 +331,7 @@ class NodeFinder {
   }
 
   void pair_across(const ContactNode<Dim>& node, const Face<Dim>& g, const Face<Dim>& h) {
-    const auto between = cracks_between(g.cracks, h.cracks, cracks_, model_.crack_laws);
+    const auto between = cracks_between(g.cracks, h.cracks, cracks_, model_);
     if (!between) return;
     const Face<Dim>&a = between->first_above ? g : h, &b = between->first_above ? h : g;
     ContactPair<Dim> pair;
@@ -350,7 +353,7 @@ class NodeFinder {
       return ContactState::stick;  // glued from the start
     ContactKey key{number, pair.name};
     for (const auto& k : cracks_) {
-      if (k.crack == pair.name.crack || pair.name.rest.contains(k.crack) || joins(model_, model_.crack_laws[k.crack])) continue;
+      if (k.crack == pair.name.crack || pair.name.rest.contains(k.crack) || joins(model_, model_.law_across(k.crack))) continue;
       const double before = state_.memory.side(number, k.crack);
       if (before * k.side < 0) key.name.others.toggle(k.crack);
     }

@@ -19,6 +19,7 @@
 #include "crampon/material/material_law.hpp"
 #include "crampon/shape/stencil.hpp"
 #include "crampon/state/grid.hpp"
+#include "crampon/state/layers.hpp"
 
 namespace crampon {
 
@@ -147,6 +148,8 @@ struct Model {
   const ContactLawSpec& law_between(int a, int b) const {
     return field_laws[static_cast<std::size_t>(a) * fields.size() + static_cast<std::size_t>(b)];
   }
+  /// Images of cracks in symmetry planes, which have the same laws, follow the cracks (CrackView::seen).
+  const ContactLawSpec& law_across(CrackId crack) const { return crack_laws[crack % crack_laws.size()]; }
   bool is_rigid(std::uint16_t field) const { return fields[field].rigid; }
   bool is_whole(std::uint16_t field) const { return fields[field].whole; }
 };
