@@ -39,15 +39,16 @@ void print_start(const Problem& problem, const Simulation& simulation, int threa
   if (size.cracks > 0) fmt::print(", {} cracks with {} segments", size.cracks, size.crack_segments);
   fmt::print("; {} steps of about {}; {} thread{}\n", count_text(static_cast<double>(size.steps)), duration_text(size.time_step), threads,
              threads == 1 ? "" : "s");
+  print_notes(simulation.notes_at_start());
   std::fflush(stdout);
 }
 
-void print_end(const Problem& problem, const RunOutcome& outcome) {
+void print_end(const Problem& problem, const Simulation& simulation, const RunOutcome& outcome) {
   const RunRecord& record = outcome.record;
   fmt::print("{} after {} steps at t = {:.6g} s, in {} ({:.2f} million particle-steps per second)\n",
              record.status.substr(0, record.status.find(':')), count_text(static_cast<double>(record.steps)), record.end_time,
              duration_text(record.wall_seconds), record.particle_steps_per_second * 1e-6);
-  for (const std::string& note : record.notes) fmt::print("{} {}\n", styled(stdout, Style::yellow, "note:"), note);
+  print_notes(simulation.notes());
   if (outcome.end == RunOutcome::End::finished && !problem.expects.empty())
     fmt::print("\n{}", check_table(check_results(ResultsFolder::open(outcome.folder), problem)));
   const std::string folder = shell_quoted(outcome.folder.string());
@@ -88,7 +89,7 @@ int run_command(const RunArguments& arguments) {
   }
   progress.finish();
 
-  if (!arguments.quiet) print_end(problem, outcome);
+  if (!arguments.quiet) print_end(problem, *simulation, outcome);
   switch (outcome.end) {
     case RunOutcome::End::stopped: {
       const std::string where = (outcome.folder / "particles.pvd").string();

@@ -75,6 +75,10 @@ std::string shell_quoted(const std::string& path) {
   return out + "'";
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print("{} {}\n", styled(stdout, Style::yellow, "note:"), note);
+}
+
 namespace {
 
 /// Columns of the terminal; 80 when it does not say.

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "crampon/run/run_problem.hpp"
 
@@ -25,6 +26,9 @@ std::string count_text(double count);
 
 /// A path as a shell takes it: in quotes where it has blanks or other signs of the shell's.
 std::string shell_quoted(const std::string& path);
+
+/// "note: ..." on stdout, a line each.
+void print_notes(const std::vector<std::string>& notes);
 
 /// Progress of a run on stderr: one line rewritten in place on a terminal, a plain line every few seconds elsewhere.
 class ProgressLine {

@@ -17,7 +17,7 @@ int validate_command(const ValidateArguments& arguments) {
   const double end_time = simulation->end_time();
 
   const auto line = [](const char* what, const std::string& value) { fmt::print("  {:<14} {}\n", what, value); };
-  fmt::print("{}: {}\n", arguments.input, styled(stdout, Style::green, "valid"));
+  fmt::print("{}\n", arguments.input);
   if (!problem.title.empty()) line("title", problem.title);
   line("particles", count_text(static_cast<double>(size.particles)));
   line("cells", fmt::format("{} in the grid, {} in blocks that hold particles", count_text(static_cast<double>(size.cells)),
@@ -27,6 +27,8 @@ int validate_command(const ValidateArguments& arguments) {
   line("time step", fmt::format("{:.6g} s", size.time_step));
   line("end time", fmt::format("{:.6g} s", end_time));
   line("memory", bytes_text(size.memory_bytes));
+  const std::vector<std::string> notes = simulation->notes_at_start();
+  print_notes(notes);
   std::fflush(stdout);
 
   const RunEstimate estimate = estimate_run(*simulation);
@@ -36,6 +38,8 @@ int validate_command(const ValidateArguments& arguments) {
   }
   line("expected time", fmt::format("{} with {} thread{}, output apart ({} steps measured, {} each)", duration_text(estimate.seconds),
                                     threads, threads == 1 ? "" : "s", estimate.steps_measured, duration_text(estimate.seconds_per_step)));
+  const std::string count = notes.empty() ? "" : fmt::format(", with {} note{}", notes.size(), notes.size() == 1 ? "" : "s");
+  fmt::print("{}: {}{}\n", arguments.input, styled(stdout, Style::green, "valid"), count);
   return exit_ok;
 }
 

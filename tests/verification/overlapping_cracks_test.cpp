@@ -215,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, OppositeCorners, testing::Values("linear", "gim
 std::vector<std::string> notes_about(const std::string& text) {
   std::vector<std::string> out;
   for (const std::string& note : make(text)->notes()) {
-    if (note.find("lie on each other") != std::string::npos) out.push_back(note);
+    if (note.find("coincide") != std::string::npos) out.push_back(note);
   }
   return out;
 }
@@ -228,7 +228,9 @@ TEST(NoteOnOverlappingCracks, NamesThemAndTheLength) {
   const auto notes = notes_about(text);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("the cracks \"a\" and \""), std::string::npos) << notes[0];
-  EXPECT_NE(notes[0].find("lie on each other over 1 m, where the stricter of their two contact laws holds"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("coincide over 1 m (there is nothing between them, and the stricter of their two contact laws holds)"),
+            std::string::npos)
+      << notes[0];
 }
 
 TEST(NoteOnOverlappingCracks, IsSilentWhereTheyCrossTouchOrRunBesideEachOther) {

@@ -121,31 +121,6 @@ void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state,
   for (RigidMotion<Dim>& motion : state.rigid) motion.end = motion.start;
 }
 
-template <int Dim>
-std::vector<std::string> odd_starts(const Model<Dim>& model, const State<Dim>& state) {
-  std::vector<std::string> out;
-  for (std::size_t w = 0; w < model.rigid_bodies.size(); ++w) {
-    const RigidBody<Dim>& body = model.rigid_bodies[w];
-    if (!body.wall) continue;
-    std::size_t inside = 0;
-    for (const Run& run : state.blocks.runs) {
-      const std::uint16_t field = model.materials[run.material].field;
-      if (model.is_rigid(field) || std::holds_alternative<NoContact>(model.law_between(field, body.field))) continue;
-      for (std::size_t p = std::size_t{run.first_pack} * lanes; p < std::size_t{run.end_pack} * lanes; ++p) {
-        if (state.particles.is_padding(p)) continue;
-        const WallView<Dim> seen = body.wall->seen_from(state.particles.position(p), state.rigid[w].start.centre);
-        inside += seen.distance < -model.grid.smallest_cell();
-      }
-    }
-    if (inside > 0)
-      out.push_back(fmt::format("{} particles begin more than a cell inside the wall \"{}\": it lets their nodes move outwards only",
-                                inside, body.name));
-  }
-  return out;
-}
-
-template std::vector<std::string> odd_starts<2>(const Model<2>&, const State<2>&);
-template std::vector<std::string> odd_starts<3>(const Model<3>&, const State<3>&);
 template void build_contact<2>(const Problem&, Model<2>&, State<2>&, std::vector<Diagnostic>&);
 template void build_contact<3>(const Problem&, Model<3>&, State<3>&, std::vector<Diagnostic>&);
 

@@ -12,8 +12,4 @@ namespace crampon {
 template <int Dim>
 void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state, std::vector<Diagnostic>& errors);
 
-/// What is odd about where bodies begin: inside a wall. `model` and `state` as built.
-template <int Dim>
-std::vector<std::string> odd_starts(const Model<Dim>& model, const State<Dim>& state);
-
 }  // namespace crampon

@@ -136,7 +136,8 @@ void update(RunRecord& record, const Simulation& simulation, const Recorder& rec
       stepping > 0 ? static_cast<double>(record.particles) * static_cast<double>(record.steps) / stepping : 0;
   record.peak_memory_bytes = peak_memory_bytes();
   record.state_hash = simulation.state_hash();
-  record.notes = simulation.notes();
+  record.notes = simulation.notes_at_start();
+  for (std::string& note : simulation.notes()) record.notes.push_back(std::move(note));
 }
 
 }  // namespace

@@ -8,9 +8,8 @@
 
 #include "crampon/core/error.hpp"
 #include "crampon/output/quantity.hpp"
-#include "crampon/run/build_contact.hpp"
 #include "crampon/run/build_model.hpp"
-#include "crampon/run/overlapping_cracks.hpp"
+#include "crampon/run/notes/notes.hpp"
 #include "crampon/run/sample.hpp"
 #include "crampon/shape/bspline.hpp"
 #include "crampon/shape/gimp.hpp"
@@ -36,11 +35,8 @@ class Engine final : public Simulation {
     time_step_ = time_.step ? *time_.step : time_.courant * stable_time_step();
     place_probes(problem);
     initial_energy_ = energy();
-    notes_at_start_ = odd_starts(model_, state_);
-    if constexpr (Dim == 2) {
-      for (std::string& note : overlapping_cracks(state_.cracks.list, model_.grid.smallest_cell()))
-        notes_at_start_.push_back(std::move(note));
-    }
+    for (const Diagnostic& note : find_notes(Start<Dim>{problem, model_, state_, time_step_, end_time()}))
+      notes_at_start_.push_back(note.text());
   }
 
   void step(double longest) override {
@@ -199,8 +195,9 @@ class Engine final : public Simulation {
     for (const Phase& p : state_.phases) out.push_back({p.name, p.seconds});
     return out;
   }
+  std::vector<std::string> notes_at_start() const override { return notes_at_start_; }
   std::vector<std::string> notes() const override {
-    std::vector<std::string> out = notes_at_start_;
+    std::vector<std::string> out;
     if (state_.most_crowded_nodes > 0)
       out.push_back(fmt::format("up to {} nodes saw more than two cracks at once", state_.most_crowded_nodes));
     if (state_.most_unsolved_nodes > 0) {

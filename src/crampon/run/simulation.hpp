@@ -65,7 +65,10 @@ class Simulation {
   /// Hash of positions, velocities, stresses and crack vertices to the last bit: equal for any number of threads.
   virtual std::uint64_t state_hash() const = 0;
   virtual std::vector<PhaseTime> phases() const = 0;
-  /// Things worth telling the user once at the end ("3 nodes saw more than two cracks").
+  /// What the input says that is legal but probably not meant (run/notes/notes.hpp), one text each with its place: worth telling before the
+  /// first step.
+  virtual std::vector<std::string> notes_at_start() const { return {}; }
+  /// What happened that is worth telling once at the end ("3 nodes saw more than two cracks").
   virtual std::vector<std::string> notes() const = 0;
 };
 

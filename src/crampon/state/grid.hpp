@@ -79,6 +79,15 @@ struct Grid {
     for (int k = Dim - 1; k >= 0; --k) n = n * (std::int64_t{blocks[k]} * block_side) + (node[k] + block_side);
     return n;
   }
+  IndexVector<Dim> node_coordinates(std::int64_t number) const {
+    IndexVector<Dim> node{};
+    for (int k = 0; k < Dim; ++k) {
+      const std::int64_t along = std::int64_t{blocks[k]} * block_side;
+      node[k] = static_cast<int>(number % along) - block_side;
+      number /= along;
+    }
+    return node;
+  }
   double smallest_cell() const {
     double h = cell[0];
     for (int k = 1; k < Dim; ++k) h = std::fmin(h, cell[k]);
