@@ -134,8 +134,34 @@ class ProblemChecker {
     check_length(body, "velocity", body.velocity.size());
     check_length(body, "spin_centre", body.spin_centre.size());
     check_spin(body, body.spin.size());
+    check_initial_stress(body);
     if (body.particles_per_cell.size() > 1) check_length(body, "particles_per_cell", body.particles_per_cell.size());
     if (dimension() == 3 && body.thickness != 1) add(body, "thickness", "a body in space has no thickness", words(), "remove thickness");
+  }
+
+  void check_initial_stress(const BodyInput& body) {
+    if (const auto* stress = std::get_if<ComponentStress>(&body.initial_stress)) {
+      const std::pair<const char*, const std::optional<ValueFunction>*> in_space[] = {
+          {"zz", &stress->zz}, {"yz", &stress->yz}, {"xz", &stress->xz}};
+      for (const auto& [key, value] : in_space) {
+        if (dimension() == 2 && *value)
+          add(body, "initial_stress", fmt::format("the component {}", key), words() + "; stress across the plane follows from the law",
+              "remove it");
+      }
+      const std::pair<const char*, const ValueFunction*> all[] = {{"xx", &stress->xx}, {"yy", &stress->yy}, {"xy", &stress->xy}};
+      for (const auto& [key, value] : all) {
+        if (value->depends_on_time())
+          add(body, "initial_stress", "the initial stress depends on the time", "it holds at the start only", "use x, y and z");
+      }
+    }
+    if (const auto* stress = std::get_if<GravityStress>(&body.initial_stress)) {
+      check_length(body, "initial_stress", stress->surface.size());
+      double size = 0;
+      for (const ValueFunction& g : problem_.method.body_force) size += std::fabs(g(0, {}));
+      if (!(size > 0) && !broken("method"))
+        add(body, "initial_stress", "a stress by gravity without a body force at the start", "there is no weight to bear",
+            "give method.body_force a value at t = 0, or use kind = \"components\"");
+    }
   }
 
   void check_spin(const Located& record, std::size_t length) {

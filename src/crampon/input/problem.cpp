@@ -88,6 +88,32 @@ const Declaration<MaterialInput>& material_declaration() {
   return d;
 }
 
+const Family<InitialStressInput>& initial_stresses() {
+  static const auto none = Declaration<NoInitialStress>("none", "The body starts without stress.");
+  static const auto components =
+      Declaration<ComponentStress>("components",
+                                   "Cauchy stress by components, each a number or an expression of x, y, z; those left out are zero.")
+          .function("xx", &ComponentStress::xx, "Pa", "normal stress along x; tension is positive")
+          .function("yy", &ComponentStress::yy, "Pa", "normal stress along y")
+          .function("zz", &ComponentStress::zz, "Pa", "normal stress along z (3D; in 2D it follows from the law)")
+          .function("xy", &ComponentStress::xy, "Pa", "shear stress")
+          .function("yz", &ComponentStress::yz, "Pa", "shear stress (3D)")
+          .function("xz", &ComponentStress::xz, "Pa", "shear stress (3D)");
+  static const auto gravity =
+      Declaration<GravityStress>(
+          "gravity", "The stress of ground at rest: the weight above, density times body_force times depth, and a part of it sideways.")
+          .quantities("surface", &GravityStress::surface, "m", Bounds::any(),
+                      "a point of the free surface, which lies across the body force", required, two_or_three)
+          .quantity("lateral", &GravityStress::lateral, "1", Bounds::at_least(0),
+                    "stress across the body force over that along it; nu/(1 - nu) where the body cannot spread", required);
+  static Family<InitialStressInput> family = [] {
+    Family<InitialStressInput> f("initial_stress", "kind", "Stress that a body bears from the start.");
+    f.add(none).add(components).add(gravity);
+    return f;
+  }();
+  return family;
+}
+
 const Declaration<BodyInput>& body_declaration() {
   static const auto d =
       Declaration<BodyInput>("body", "A shape filled with particles, or particles from a file.")
@@ -112,6 +138,8 @@ const Declaration<BodyInput>& body_declaration() {
                       Presence::optional, up_to_three)
           .quantities("spin_centre", &BodyInput::spin_centre, "m", Bounds::any(),
                       "point the spin turns about; left out: the centre of mass", Presence::optional, two_or_three)
+          .one_of("initial_stress", &BodyInput::initial_stress, initial_stresses,
+                  "stress from the start, held by an elastic strain; the body's shape, density and positions are those under stress")
           .check([](const BodyInput& in, Diagnostics& diagnostics) {
             if (!in.shape && !in.particles)
               diagnostics.add("", "neither shape nor particles is given", "the body would be empty", "add shape = { kind = ... }");

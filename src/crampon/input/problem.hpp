@@ -114,6 +114,18 @@ struct MaterialInput : Located {
   MaterialSpec law;  ///< parameters of the chosen law (material/material.hpp)
 };
 
+/// [[body]] initial_stress: none; Cauchy stress by components, Pa, of position; or that of a body at rest under gravity.
+struct NoInitialStress {};
+struct ComponentStress {
+  ValueFunction xx, yy, xy;
+  std::optional<ValueFunction> zz, yz, xz;  ///< 3D
+};
+struct GravityStress {
+  std::vector<double> surface;  ///< a point of the free surface, m
+  double lateral = 0;           ///< horizontal over vertical stress
+};
+using InitialStressInput = std::variant<NoInitialStress, ComponentStress, GravityStress>;
+
 /// [[body]]: a shape filled with particles, or particles from a file.
 struct BodyInput : Located {
   std::string name;
@@ -128,6 +140,7 @@ struct BodyInput : Located {
   std::vector<ValueFunction> velocity;              ///< initial, m/s, of position, one per dimension or empty
   std::vector<double> spin;                         ///< rad/s: one number in 2D, three in 3D, or empty
   std::vector<double> spin_centre;                  ///< m; default: the body's centre of mass
+  InitialStressInput initial_stress;
 };
 
 /// The arc of a crack.

@@ -11,6 +11,7 @@
 #include "crampon/geometry/arc.hpp"
 #include "crampon/run/build_bodies.hpp"
 #include "crampon/run/build_contact.hpp"
+#include "crampon/run/initial_stress.hpp"
 #include "crampon/step/crack_tractions.hpp"
 
 namespace crampon {
@@ -380,6 +381,8 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   }
   if (!errors.empty()) throw InputError(std::move(errors));
   place_particles(bodies, model, out.state);
+  bear_initial_stress(problem, model, out.state, errors);
+  if (!errors.empty()) throw InputError(std::move(errors));
   start_tractions(out.state, model);
   return out;
 }
