@@ -40,6 +40,7 @@ void print_start(const Problem& problem, const Simulation& simulation, int threa
   fmt::print("; {} steps of about {}; {} thread{}\n", count_text(static_cast<double>(size.steps)), duration_text(size.time_step), threads,
              threads == 1 ? "" : "s");
   print_notes(simulation.notes_at_start());
+  for (const LoadSummary& load : simulation.loads()) fmt::print("load {}\n", load_text(load));
   std::fflush(stdout);
 }
 

@@ -65,6 +65,16 @@ std::string count_text(double count) {
   return digits;
 }
 
+std::string load_text(const LoadSummary& load) {
+  // Round-off beside the force is none.
+  double largest = 0;
+  for (const double f : load.force) largest = std::fmax(largest, std::fabs(f));
+  std::string force;
+  for (const double f : load.force) force += fmt::format("{}{:.6g}", force.empty() ? "" : ", ", std::fabs(f) < 1e-12 * largest ? 0. : f);
+  const std::string on = load.area > 0 ? fmt::format(" on {:.6g} m2", load.area) : "";
+  return fmt::format("\"{}\": ({}) N{}, largest at t = {:.6g} s", load.name, force, on, load.time);
+}
+
 std::string shell_quoted(const std::string& path) {
   const bool plain = !path.empty() && std::all_of(path.begin(), path.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c >= 0x80 || std::string_view("_-./+,:@%=").find(static_cast<char>(c)) != std::string_view::npos;

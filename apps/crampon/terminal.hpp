@@ -24,6 +24,9 @@ std::string bytes_text(double bytes);
 /// 1234567 as "1 234 567".
 std::string count_text(double count);
 
+/// The force of a load where it is largest: "pull": (0, 2000) N on 2e-05 m2, largest at t = 5e-05 s.
+std::string load_text(const LoadSummary& load);
+
 /// A path as a shell takes it: in quotes where it has blanks or other signs of the shell's.
 std::string shell_quoted(const std::string& path);
 

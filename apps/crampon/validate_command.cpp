@@ -22,6 +22,7 @@ int validate_command(const ValidateArguments& arguments) {
   line("particles", count_text(static_cast<double>(size.particles)));
   line("cells", fmt::format("{} in the grid, {} in blocks that hold particles", count_text(static_cast<double>(size.cells)),
                             count_text(static_cast<double>(size.active_cells))));
+  for (const LoadSummary& load : simulation->loads()) line("load", load_text(load));
   if (size.cracks > 0) line("cracks", fmt::format("{} with {} segments", size.cracks, size.crack_segments));
   line("steps", count_text(static_cast<double>(size.steps)));
   line("time step", fmt::format("{:.6g} s", size.time_step));

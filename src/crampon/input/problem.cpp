@@ -241,24 +241,28 @@ const Declaration<SymmetryInput>& symmetry_declaration() {
 const Declaration<LoadInput>& load_declaration() {
   using Kind = LoadInput::Kind;
   static const auto d =
-      Declaration<LoadInput>("load", "Forces on particles.")
+      Declaration<LoadInput>("load", "Forces on particles, or stress on faces of bodies.")
           .name("name", &LoadInput::name, "what output calls it")
           .choice("kind", &LoadInput::kind,
                   {{"total_force", Kind::total_force},
                    {"force_each", Kind::force_each},
                    {"traction", Kind::traction},
                    {"pressure", Kind::pressure}},
-                  "a force shared by the particles, a force on each of them, or stress on a face", required)
+                  "a force shared by the particles, a force on each of them, or stress on a face: traction per area as it was at the "
+                  "start, in a fixed "
+                  "direction; pressure per area as it is, against the normal as it is",
+                  required)
           .text("body", &LoadInput::body, "only particles of this body; empty: all")
-          .one_of("region", &LoadInput::region, shapes, "only particles that start in this region")
+          .one_of("region", &LoadInput::region, shapes,
+                  "only particles that start in this region; traction and pressure: their outer faces")
           .function("value", &LoadInput::value, "N", "one per dimension; pressure: one; may vary in time", required, up_to_three)
           .unit_by("kind", {{"total_force", "N"}, {"force_each", "N"}, {"traction", "Pa"}, {"pressure", "Pa"}})
           .choice("face", &LoadInput::face, {{"x-", "x-"}, {"x+", "x+"}, {"y-", "y-"}, {"y+", "y+"}, {"z-", "z-"}, {"z+", "z+"}},
-                  "traction and pressure: the side of the body's cells that is loaded")
+                  "traction and pressure: the part of the body's boundary that looks that way, with nothing of the body in front of it; "
+                  "left out: all "
+                  "of the boundary (in the region)")
           .check([](const LoadInput& in, Diagnostics& diagnostics) {
             const bool on_face = in.kind == Kind::traction || in.kind == Kind::pressure;
-            if (on_face && !in.face)
-              diagnostics.add("", "the key \"face\" is missing", "traction and pressure act on a face", "add face = \"x+\"");
             if (!on_face && in.face)
               diagnostics.add("face", "face is given for a force", "forces act on particles, not on a face",
                               "remove face, or use traction");

@@ -183,14 +183,14 @@ struct SymmetryInput : Located {
   std::vector<double> from, to;  ///< one per dimension; the entry of `axis` is ignored
 };
 
-/// [[load]]: forces on particles.
+/// [[load]]: forces on particles, or stress on faces.
 struct LoadInput : Located {
   std::string name;
   enum class Kind { total_force, force_each, traction, pressure } kind = Kind::total_force;
   std::string body;                  ///< restrict to this body; empty: all
-  ShapePtr region;                   ///< particles initially in this region (traction, pressure: the face's cells lie in it)
+  ShapePtr region;                   ///< particles initially in this region (traction, pressure: their outer faces)
   std::vector<ValueFunction> value;  ///< N, N, Pa (per component); pressure: one, Pa. In t only
-  std::optional<std::string> face;   ///< traction, pressure: "x-", "x+", "y-", ... of the body's cells
+  std::optional<std::string> face;   ///< traction, pressure: "x-", "x+", "y-", ...: where the boundary looks; none: all of it
 };
 
 /// [[probe]]: history columns at a place.

@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "crampon/geometry/arc.hpp"
 #include "crampon/run/build_bodies.hpp"
 #include "crampon/run/build_contact.hpp"
+#include "crampon/run/build_loads.hpp"
 #include "crampon/run/initial_stress.hpp"
 #include "crampon/step/crack_tractions.hpp"
+#include "crampon/step/face_loads.hpp"
 
 namespace crampon {
 
@@ -198,106 +199,6 @@ void build_cracks(const Problem& problem, Model<2>& model, Cracks<2>& cracks, st
   }
 }
 
-/// The particles of a body that have no neighbour of their body on one side of the lattice.
-template <int Dim>
-std::vector<std::size_t> face_particles(const BuiltBodies<Dim>& bodies, const Grid<Dim>& grid, std::size_t body, int axis, int direction) {
-  std::set<std::array<std::int64_t, Dim>> taken;
-  const auto place = [&](const Vec<Dim>& x) {
-    std::array<std::int64_t, Dim> i;
-    for (int k = 0; k < Dim; ++k) i[k] = std::llround((x[k] - grid.origin[k]) * grid.inverse_cell[k] * bodies.per_cell[body][k] - 0.5);
-    return i;
-  };
-  for (const auto& p : bodies.particles) {
-    if (p.body == body) taken.insert(place(p.x));
-  }
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < bodies.particles.size(); ++i) {
-    if (bodies.particles[i].body != body) continue;
-    auto beside = place(bodies.particles[i].x);
-    beside[axis] += direction;
-    if (!taken.contains(beside)) out.push_back(i);
-  }
-  return out;
-}
-
-template <int Dim>
-class LoadBuilder {
- public:
-  LoadBuilder(const Problem& problem, const BuiltBodies<Dim>& bodies, Model<Dim>& model, std::vector<Diagnostic>& errors)
-      : problem_(problem), bodies_(bodies), model_(model), errors_(errors) {}
-
-  void add(const LoadInput& in) {
-    ParticleLoad<Dim> load;
-    load.name = in.name;
-    const bool on_face = in.kind == LoadInput::Kind::traction || in.kind == LoadInput::Kind::pressure;
-    for (int k = 0; k < Dim; ++k) {
-      load.value.push_back(in.value.empty() ? ValueFunction()
-                                            : in.value[std::min<std::size_t>(static_cast<std::size_t>(k), in.value.size() - 1)]);
-    }
-    on_face ? add_face(in, load) : add_forces(in, load);
-    if (load.particles.empty()) {
-      errors_.push_back({in.region ? in.at("region") : in.location, fmt::format("no particle carries the load \"{}\"", in.name),
-                         "its region and body select none", "enlarge the region or correct the body"});
-    }
-    model_.loads.push_back(std::move(load));
-  }
-
- private:
-  bool selected(const LoadInput& in, const NewParticle<Dim>& p) const {
-    if (p.body >= problem_.bodies.size()) return false;  // rigid
-    if (!in.body.empty() && problem_.bodies[p.body].name != in.body) return false;
-    return !in.region || in.region->contains(in_space(p.x), 1e-9 * model_.grid.smallest_cell());
-  }
-
-  void add_forces(const LoadInput& in, ParticleLoad<Dim>& load) const {
-    double volume = 0;
-    for (std::size_t i = 0; i < bodies_.particles.size(); ++i) {
-      if (!selected(in, bodies_.particles[i])) continue;
-      load.particles.push_back(static_cast<std::uint32_t>(i));
-      volume += bodies_.particles[i].volume;
-    }
-    for (const std::uint32_t i : load.particles) {
-      const double share = in.kind == LoadInput::Kind::total_force ? bodies_.particles[i].volume / volume : 1.;
-      Vec<Dim> s;
-      for (int k = 0; k < Dim; ++k) s[k] = share;
-      load.share.push_back(s);
-    }
-  }
-
-  void add_face(const LoadInput& in, ParticleLoad<Dim>& load) {
-    const std::string& face = *in.face;
-    const int axis = face[0] - 'x', direction = face[1] == '+' ? 1 : -1;
-    for (std::size_t b = 0; b < problem_.bodies.size(); ++b) {
-      if (!in.body.empty() && problem_.bodies[b].name != in.body) continue;
-      if (!bodies_.on_lattice[b]) {
-        errors_.push_back({in.at("face"), fmt::format("the body \"{}\" comes from a file and has no faces", problem_.bodies[b].name),
-                           "tractions act on the faces of a filled shape's cells", "use force_each on a region instead"});
-        return;
-      }
-      double area = Dim == 2 ? problem_.bodies[b].thickness : 1.;
-      for (int k = 0; k < Dim; ++k) {
-        if (k != axis) area *= model_.grid.cell[k] / bodies_.per_cell[b][k];
-      }
-      for (const std::size_t i : face_particles(bodies_, model_.grid, b, axis, direction)) {
-        if (!selected(in, bodies_.particles[i])) continue;
-        Vec<Dim> share;
-        if (in.kind == LoadInput::Kind::pressure) {
-          share[axis] = -direction * area;
-        } else {
-          for (int k = 0; k < Dim; ++k) share[k] = area;
-        }
-        load.particles.push_back(static_cast<std::uint32_t>(i));
-        load.share.push_back(share);
-      }
-    }
-  }
-
-  const Problem& problem_;
-  const BuiltBodies<Dim>& bodies_;
-  Model<Dim>& model_;
-  std::vector<Diagnostic>& errors_;
-};
-
 template <int Dim>
 void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, State<Dim>& state) {
   int history = 0;
@@ -375,12 +276,10 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   build_conditions(problem, model, errors);
   build_contact(problem, model, out.state, errors);
   if constexpr (Dim == 2) build_cracks(problem, model, out.state.cracks, errors);
-  if (errors.empty()) {
-    LoadBuilder<Dim> loads(problem, bodies, model, errors);
-    for (const LoadInput& in : problem.loads) loads.add(in);
-  }
+  if (errors.empty()) build_loads(problem, bodies, out.state.cracks, model, errors);
   if (!errors.empty()) throw InputError(std::move(errors));
   place_particles(bodies, model, out.state);
+  start_face_loads(out.state, model);
   bear_initial_stress(problem, model, out.state, errors);
   if (!errors.empty()) throw InputError(std::move(errors));
   start_tractions(out.state, model);

@@ -15,6 +15,7 @@
 #include "crampon/shape/gimp.hpp"
 #include "crampon/shape/linear.hpp"
 #include "crampon/step/advance.hpp"
+#include "crampon/step/face_loads.hpp"
 #include "crampon/step/ledger.hpp"
 #include "crampon/step/move_cracks.hpp"
 
@@ -79,6 +80,25 @@ class Engine final : public Simulation {
     return s;
   }
 
+  std::vector<LoadSummary> loads() const override {
+    std::vector<LoadSummary> out(model_.loads.size());
+    constexpr int times = 1000;
+    for (int i = 0; i <= times; ++i) {
+      const double t = end_time() * i / times;
+      const std::vector<Vec<Dim>> now = total_loads(state_, model_, t);
+      for (std::size_t l = 0; l < out.size(); ++l) {
+        Vec<Dim> largest;
+        for (std::size_t k = 0; k < out[l].force.size(); ++k) largest[k] = out[l].force[k];
+        if (i > 0 && norm(now[l]) <= norm(largest) * (1 + 1e-9)) continue;
+        out[l].force.assign(now[l].c.begin(), now[l].c.end());
+        out[l].time = t;
+      }
+    }
+    for (std::size_t l = 0; l < out.size(); ++l) out[l].name = model_.loads[l].name;
+    for (const FaceColumn& c : model_.faces.columns) out[c.load].area += c.area * c.share;
+    return out;
+  }
+
   std::vector<std::string> particle_quantities() const override { return particle_quantity_names(); }
   PointFrame particles(const std::vector<std::string>& names, Precision precision) const override {
     return sample_particles(state_, model_, names, precision);
@@ -111,6 +131,9 @@ class Engine final : public Simulation {
       if (body.prescribes) continue;  // its condition has the columns
       for (int k = 0; k < Dim; ++k) c.push_back({std::string("reaction_") + axis_names[k] + "." + body.name, "N"});
       for (int k = Dim == 2 ? 2 : 0; k < 3; ++k) c.push_back({std::string("torque_") + axis_names[k] + "." + body.name, "N m"});
+    }
+    for (const auto& load : model_.loads) {
+      for (int k = 0; k < Dim; ++k) c.push_back({std::string("load_") + axis_names[k] + "." + load.name, "N"});
     }
     for (const auto& crack : state_.cracks.list) {
       c.push_back({"opening_min." + crack.name, "m"});
@@ -159,6 +182,7 @@ class Engine final : public Simulation {
       for (int k = 0; k < Dim; ++k) row.push_back(r.force[k]);
       for (int k = Dim == 2 ? 2 : 0; k < 3; ++k) row.push_back(r.torque[k]);
     }
+    for (const Vec<Dim>& load : total_loads(state_, model_, state_.time)) row.insert(row.end(), load.c.begin(), load.c.end());
     if constexpr (Dim == 2) {
       for (const auto& crack : state_.cracks.list) add_openings(crack, row);
     }

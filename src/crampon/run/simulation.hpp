@@ -28,6 +28,14 @@ struct SimulationSize {
   double memory_bytes = 0;  ///< estimate of the engine's arrays
 };
 
+/// What a load comes to.
+struct LoadSummary {
+  std::string name;
+  std::vector<double> force;  ///< on all that it acts on, when it is largest, N
+  double time = 0;            ///< ... s
+  double area = 0;            ///< of the faces that it acts on, m2; 0: it acts on particles
+};
+
 class Simulation {
  public:
   /// Builds particles, cracks and grid. threads <= 0: all cores. Throws InputError for what only building can find
@@ -45,6 +53,7 @@ class Simulation {
   virtual bool finished() const = 0;    ///< the end time or the number of steps is reached
   virtual double end_time() const = 0;  ///< s; estimated when only steps are given
   virtual SimulationSize size() const = 0;
+  virtual std::vector<LoadSummary> loads() const { return {}; }  ///< on bodies as they are now
 
   /// Names that particles() understands, in the order of the reference page.
   virtual std::vector<std::string> particle_quantities() const = 0;

@@ -7,6 +7,8 @@ namespace crampon {
 struct BsplineShape {
   static constexpr int width = 3;
   static constexpr double bin_shift = 0.5;  ///< particles are binned by nearest node
+  /// Cells from a particle to the furthest node that it can reach.
+  static constexpr double reach(double /*half_size*/) { return 1.5; }
 
   /// f - 1/2 is the distance to the nearest (middle) node in cells, in [-1/2, 1/2].
   static void weights(Pack f, double /*half_size*/, double inverse_cell, Pack* N, Pack* dN) {

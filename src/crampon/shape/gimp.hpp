@@ -7,6 +7,8 @@ namespace crampon {
 struct GimpShape {
   static constexpr int width = 3;
   static constexpr double bin_shift = 0.5;  ///< particles are binned by nearest node
+  /// Cells from a particle to the furthest node that it can reach.
+  static constexpr double reach(double half_size) { return 1 + half_size; }
 
   /// f - 1/2 is the distance to the nearest (middle) node in cells, in [-1/2, 1/2]; half_size: particle half edge in cells.
   /// Branch-free: t is the part of the particle on either side of the middle node.

@@ -7,6 +7,8 @@ namespace crampon {
 struct LinearShape {
   static constexpr int width = 2;         ///< nodes per axis
   static constexpr double bin_shift = 0;  ///< particles are binned by cell
+  /// Cells from a particle to the furthest node that it can reach.
+  static constexpr double reach(double /*half_size*/) { return 1; }
 
   /// f: distance from the base node in cells, in [0, 1]. N and dN/dx (1/m) at the base node and the next.
   static void weights(Pack f, double /*half_size*/, double inverse_cell, Pack* N, Pack* dN) {

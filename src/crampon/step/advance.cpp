@@ -6,6 +6,7 @@
 #include "crampon/step/assign_velocity_fields.hpp"
 #include "crampon/step/boundary.hpp"
 #include "crampon/step/crack_tractions.hpp"
+#include "crampon/step/face_loads.hpp"
 #include "crampon/step/find_contacts.hpp"
 #include "crampon/step/guard.hpp"
 #include "crampon/step/instantiate.hpp"
@@ -13,6 +14,7 @@
 #include "crampon/step/move_cracks.hpp"
 #include "crampon/step/nodes_phase.hpp"
 #include "crampon/step/project.hpp"
+#include "crampon/step/project_loads.hpp"
 #include "crampon/step/reorder.hpp"
 #include "crampon/step/rigid_motion.hpp"
 #include "crampon/step/symmetry_reactions.hpp"
@@ -79,6 +81,10 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     assign_velocity_fields<Dim, Shape>(state, model);  // Task 0
     record_initial_volume<Dim, Shape>(state, model);
   });
+  if (!model.faces.empty()) {
+    phases.blocks("face loads", [&](B b) { weigh_face_loads<Dim, Shape>(state, model, b); });
+    phases.serial("face loads", [&] { settle_face_loads(state, model, load_values); });
+  }
   phases.blocks("project momentum", [&](B b) { project_momentum<Dim, Shape>(state, model, b); });  // Task 1
   if (model.any_contact()) {
     phases.blocks("find contact", [&](B b) { find_shared_nodes<Dim, Shape>(state, model, b); });
@@ -91,12 +97,13 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   if (model.any_tractions()) phases.serial("crack tractions", [&] { spread_tractions(state, model); });
   phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });  // Tasks 3, 4
   phases.blocks("account loads", [&](B b) {
-    account_loads<Dim, Shape>(state, model, b, dt, load_values, body_force);
+    account_loads<Dim, Shape>(state, model, b, dt, body_force);
     account_symmetry<Dim, Shape>(state, model, b, dt, load_values, body_force, damping);
   });
   if (model.re_extrapolates()) {
     phases.blocks("update velocities", [&](B b) { update_velocities_and_project<Dim, Shape>(state, model, b, dt); });  // Tasks 5, 6
     phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });  // Task 6
+    phases.blocks("account loads", [&](B b) { account_loads_anew<Dim, Shape>(state, b, dt); });
   }
   phases.serial("move cracks", [&] {  // Task 8
     remember_contacts(state);

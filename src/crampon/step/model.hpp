@@ -20,6 +20,7 @@
 #include "crampon/shape/stencil.hpp"
 #include "crampon/state/grid.hpp"
 #include "crampon/state/layers.hpp"
+#include "crampon/step/loaded_faces.hpp"
 
 namespace crampon {
 
@@ -78,13 +79,16 @@ struct CrackTraction {
   bool acts() const { return !std::holds_alternative<NoTraction>(law); }
 };
 
-/// Forces on particles, by particle id: value(t) times the particle's share, N.
+/// Forces on particles, or stress on faces of bodies.
 template <int Dim>
-struct ParticleLoad {
+struct Load {
   std::string name;
-  std::vector<std::uint32_t> particles;  ///< ids, ascending
-  std::vector<Vec<Dim>> share;           ///< per particle, per component
-  std::vector<ValueFunction> value;      ///< per component, of time
+  /// forces: value(t) times a particle's share, N; traction: per area of the undeformed face, in a fixed direction, Pa; pressure: per area of
+  /// the face as it is, against its normal, Pa.
+  enum class Kind { forces, traction, pressure } kind = Kind::forces;
+  std::vector<ValueFunction> value;      ///< per component, of time; pressure: the first
+  std::vector<std::uint32_t> particles;  ///< forces: ids, ascending
+  std::vector<double> share;             ///< ... per particle
 };
 
 template <int Dim>
@@ -101,7 +105,8 @@ struct Model {
   std::vector<CrackTraction> tractions;    ///< per crack
   std::vector<VelocityCondition<Dim>> conditions;
   std::vector<SymmetryPlane> symmetries;
-  std::vector<ParticleLoad<Dim>> loads;
+  std::vector<Load<Dim>> loads;
+  LoadedFaces<Dim> faces;                 ///< that loads act on
   std::vector<ValueFunction> body_force;  ///< per component or empty, m/s2
   ValueFunction damping;                  ///< 1/s
   bool damped = false;

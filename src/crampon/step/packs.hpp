@@ -89,18 +89,22 @@ void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, 
   }
 }
 
-/// f(loaded, stencil, lane, targets) for the particles of a block that loads act on.
-template <int Dim, class Shape, class F>
-void for_loaded(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
+/// f(item, stencil, lane, targets, run) for items of a block that name a particle by its slot, ascending.
+template <int Dim, class Shape, class Item, class F>
+void for_slots(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<Item>& items, F&& f) {
+  if (items.empty()) return;
+  std::uint32_t r = state.blocks.list[b].first_run;
   BlockStencils<Dim, Shape> stencils(state, model, b);
   StencilFactors<Dim, Shape> factors;
-  for (const LoadedParticle<Dim>& loaded : state.scratch[b].loaded) {
-    const std::uint32_t pack = loaded.slot / lanes;
-    std::uint32_t r = state.blocks.list[b].first_run;
+  for (std::size_t i = 0; i < items.size();) {
+    const std::uint32_t pack = items[i].slot / lanes;
     while (pack >= state.blocks.runs[r].end_pack) ++r;
-    stencils.enter_run(r);
+    const Run& run = stencils.enter_run(r);
     stencils.compute(pack, factors);
-    f(loaded, Stencil<Dim, Shape>(factors), static_cast<int>(loaded.slot % lanes), stencils.targets(pack));
+    const Stencil<Dim, Shape> stencil(factors);
+    for (; i < items.size() && items[i].slot / lanes == pack; ++i) {
+      f(items[i], stencil, static_cast<int>(items[i].slot % lanes), stencils.targets(pack), run);
+    }
   }
 }
 

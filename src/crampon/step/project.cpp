@@ -1,6 +1,7 @@
 #include "crampon/step/project.hpp"
 
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/project_loads.hpp"
 #include "crampon/step/stress_pass.hpp"
 #include "crampon/step/tile_buffer.hpp"
 
@@ -147,25 +148,6 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
 
 namespace {
 
-/// f_p S_ip of particles under load (N03 Eq. 28, f_ext).
-template <int Dim, class Shape>
-void project_loads(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<Vec<Dim>>& load_values,
-                   NodalVector<Dim>* tiles) {
-  using T = Tile<Dim, Shape>;
-  for_loaded<Dim, Shape>(
-      state, model, b, [&](const LoadedParticle<Dim>& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets) {
-        const Vec<Dim>& share = model.loads[loaded.load].share[loaded.entry];
-        NodalVector<Dim> f_p = splat_as<NodalVector<Dim>>(0.);
-        for (int k = 0; k < Dim; ++k) f_p[k] = share[k] * load_values[loaded.load][k];
-        for (int n = 0; n < T::stencil; ++n) {
-          const int node =
-              targets ? targets[l * T::stencil + n].layer * T::nodes + targets[l * T::stencil + n].node : stencil.of.base[l] + T::steps[n];
-          const unsigned flip = targets ? targets[l * T::stencil + n].flip : 0u;
-          tiles[node] = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), flipped(f_p, flip), tiles[node]);
-        }
-      });
-}
-
 /// Rigid particles carry the force that takes them from the old velocity to the new one: their nodes then move as prescribed in Task 4.
 template <int Dim, class Shape>
 void project_rigid_motion(const State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, NodalVector<Dim>* tiles) {
@@ -232,7 +214,7 @@ void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model
                           });
   }
   if (!model.rigid_bodies.empty()) project_rigid_motion<Dim, Shape>(state, model, b, dt, tiles);
-  if (!state.scratch[b].loaded.empty()) project_loads<Dim, Shape>(state, model, b, load_values, tiles);
+  project_loads<Dim, Shape>(state, model, b, load_values, tiles);
   if (model.any_body_force() && !model.symmetries.empty()) mirror_body_force<Dim, Shape>(state, model, b, body_force, tiles);
 }
 

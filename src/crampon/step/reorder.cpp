@@ -218,7 +218,7 @@ void build_blocks(Blocks<Dim>& blocks, const Grid<Dim>& grid, const std::vector<
 template <int Dim>
 void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
   const Grid<Dim>& grid = model.grid;
-  state.scratch.assign(state.blocks.size(), {});
+  state.scratch = std::vector<BlockScratch<Dim>>(state.blocks.size());
   for (std::size_t c = 0; c < model.conditions.size(); ++c) {
     const auto& condition = model.conditions[c];
     for (const std::int64_t number : condition.nodes) {
@@ -265,6 +265,16 @@ void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
       if (slot == padding_id) continue;  // removed on leaving the grid
       state.scratch[block_of_pack[slot / lanes]].loaded.push_back({slot, static_cast<std::uint32_t>(l), static_cast<std::uint32_t>(e)});
     }
+  }
+  for (std::size_t n = 0; n < model.faces.particles.size(); ++n) {
+    const std::uint32_t slot = slot_of_id[model.faces.particles[n]];
+    state.faces.present[n] = slot != padding_id;
+    if (slot != padding_id) state.scratch[block_of_pack[slot / lanes]].faces.push_back({slot, static_cast<std::uint32_t>(n)});
+  }
+  const auto by_slot = [](const auto& a, const auto& b) { return a.slot < b.slot; };
+  for (auto& scratch : state.scratch) {
+    std::stable_sort(scratch.loaded.begin(), scratch.loaded.end(), by_slot);
+    std::sort(scratch.faces.begin(), scratch.faces.end(), by_slot);
   }
 }
 

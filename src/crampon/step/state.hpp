@@ -33,11 +33,27 @@ struct FixedComponent {
   double v_old = 0, v_new = 0;  ///< m/s, at the start and the end of the step
 };
 
-/// A particle that a load acts on. Rebuilt when blocks change.
-template <int Dim>
+/// A particle that a force acts on. Rebuilt when blocks change.
 struct LoadedParticle {
   std::uint32_t slot = 0;
   std::uint32_t load = 0, entry = 0;
+};
+
+/// A particle behind a face under load. Rebuilt when blocks change.
+struct FaceParticle {
+  std::uint32_t slot = 0;
+  std::uint32_t number = 0;  ///< index into LoadedFaces::particles
+};
+
+/// Faces under load in this step.
+template <int Dim>
+struct FaceStates {
+  std::vector<std::array<double, Dim * Dim>> deformation;  ///< per particle: F[d * Dim + k]
+  std::vector<double> sum;                                 ///< per link: of its weights over all nodes, m2
+  std::vector<Vec<Dim>> area_vector;                       ///< per column: of the deformed face over the undeformed area
+  std::vector<Vec<Dim>> traction;                          ///< per column, Pa of the undeformed area
+  std::vector<double> rest;                                ///< per column: what a link's sum lacks of its part of the area, m2
+  std::vector<bool> present;                               ///< per particle: not removed on leaving the grid
 };
 
 /// Sums of one block over one step; added up in block order, so that they do not depend on threads.
@@ -122,8 +138,10 @@ struct FailureEvent {
 template <int Dim>
 struct BlockScratch {
   std::vector<FixedComponent> fixed;
-  std::vector<double> p_int;  ///< [layer][fixed]: momentum before the boundary condition (N13 sec. 2.3)
-  std::vector<LoadedParticle<Dim>> loaded;
+  std::vector<double> p_int;             ///< [layer][fixed]: momentum before the boundary condition (N13 sec. 2.3)
+  std::vector<LoadedParticle> loaded;    ///< by slot
+  std::vector<FaceParticle> faces;       ///< by slot
+  AlignedArray<NodalVector<Dim>> loads;  ///< forces of loads on the tile, all layers, N; only where there are any
   std::vector<NodalForce<Dim>> tractions;
   ContactNodes<Dim> contact;
   BlockLedger<Dim> ledger;
@@ -147,6 +165,7 @@ struct State {
   std::vector<BlockScratch<Dim>> scratch;  ///< per block
   ContactMemory memory;
   std::vector<CrackTractionState<Dim>> tractions;  ///< per crack
+  FaceStates<Dim> faces;
   CohesiveTotals cohesive;
   double traction_time_step = std::numeric_limits<double>::infinity();        ///< longest that the springs of traction laws bear now, s
   double least_traction_time_step = std::numeric_limits<double>::infinity();  ///< ... since the start

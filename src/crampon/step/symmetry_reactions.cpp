@@ -1,5 +1,6 @@
 #include "crampon/step/symmetry_reactions.hpp"
 
+#include "crampon/step/face_loads.hpp"
 #include "crampon/step/folded_pairs.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/packs.hpp"
@@ -66,14 +67,23 @@ void account_symmetry(State<Dim>& state, const Model<Dim>& model, std::size_t b,
           });
         }
       });
-  for_loaded<Dim, Shape>(
-      state, model, b, [&](const LoadedParticle<Dim>& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets) {
+  for_slots<Dim, Shape>(
+      state, model, b, state.scratch[b].loaded,
+      [&](const LoadedParticle& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, const Run&) {
         if (!targets) return;
-        const Vec<Dim>& share = model.loads[loaded.load].share[loaded.entry];
-        for_folded<Dim, Shape>(model, first_node, stencil, l, targets, particles.position(loaded.slot),
-                               [&](const SymmetryPlane& plane, int n) {
-                                 ledger.add_reaction(plane.condition, plane.axis,
-                                                     -2 * stencil.weight(n, l) * share[plane.axis] * load_values[loaded.load][plane.axis]);
+        const double share = model.loads[loaded.load].share[loaded.entry];
+        for_folded<Dim, Shape>(
+            model, first_node, stencil, l, targets, particles.position(loaded.slot), [&](const SymmetryPlane& plane, int n) {
+              ledger.add_reaction(plane.condition, plane.axis, -2 * stencil.weight(n, l) * share * load_values[loaded.load][plane.axis]);
+            });
+      });
+  for_face_forces<Dim, Shape>(
+      state, model, b,
+      [&](std::uint32_t slot, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, int n, const NodalVector<Dim>& f) {
+        if (!targets) return;
+        for_folded<Dim, Shape>(model, first_node, stencil, l, targets, particles.position(slot),
+                               [&](const SymmetryPlane& plane, int folded) {
+                                 if (folded == n) ledger.add_reaction(plane.condition, plane.axis, -2 * f[plane.axis]);
                                });
       });
 }

@@ -153,44 +153,9 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
   find_touched_box<Dim, Shape>(state, model, b, low, high);
 }
 
-template <int Dim, class Shape>
-void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const std::vector<Vec<Dim>>& load_values,
-                   const Vec<Dim>& body_force) {
-  const bool mirrors = model.any_body_force() && !model.symmetries.empty() && state.blocks.list[b].has_particles();
-  if (state.scratch[b].loaded.empty() && !mirrors) return;
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
-  for_loaded<Dim, Shape>(state, model, b,
-                         [&](const LoadedParticle<Dim>& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets) {
-                           const MotionRecord<Dim> m = interpolate<Dim, Shape>(stencil, targets, l, motion);
-                           for (int k = 0; k < Dim; ++k) {
-                             const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
-                             state.scratch[b].ledger.load_work +=
-                                 model.loads[loaded.load].share[loaded.entry][k] * load_values[loaded.load][k] * (v - 0.5 * a * dt) * dt;
-                           }
-                         });
-  if (!mirrors) return;
-  for_packs<Dim, Shape>(
-      state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
-        if (model.is_rigid(model.materials[run.material].field)) return;
-        for (int l = 0; l < lanes && targets; ++l) {
-          const double m_p = state.particles.mass(std::size_t{pack} * lanes + l);
-          for_stencil<Dim, Shape>(stencil, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {
-            for (int k = 0; k < Dim; ++k) {
-              const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
-              // The nodes' account took this mass as if it were no image.
-              if (flip >> k & 1u)
-                state.scratch[b].ledger.body_work -= 2 * stencil.weight(n, l) * m_p * body_force[k] * (v - 0.5 * a * dt) * dt;
-            }
-          });
-        }
-      });
-}
-
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                      \
-  template void update_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);              \
-  template void finish_particles<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, bool);             \
-  template void account_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const std::vector<Vec<DIM>>&, \
-                                          const Vec<DIM>&);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                         \
+  template void update_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double); \
+  template void finish_particles<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, bool);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -14,10 +14,4 @@ void update_velocities_and_project(State<Dim>& state, const Model<Dim>& model, s
 template <int Dim, class Shape>
 void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt, double stress_dt, bool with_velocities);
 
-/// Work of loads on particles over the step, f_p . sum S (v' - a dt/2) dt, to the block's ledger, and what body force on mirror images
-/// takes from the nodes' account. Before positions advance.
-template <int Dim, class Shape>
-void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt, const std::vector<Vec<Dim>>& load_values,
-                   const Vec<Dim>& body_force);
-
 }  // namespace crampon

@@ -1,0 +1,123 @@
+#include "crampon/step/project_loads.hpp"
+
+#include "crampon/step/face_loads.hpp"
+#include "crampon/step/instantiate.hpp"
+#include "crampon/step/tile_buffer.hpp"
+
+namespace crampon {
+
+namespace {
+
+/// f(tile node, layer * nodes + tile node) over all that the particles of a block touch.
+template <int Dim, class Shape, class F>
+void for_touched(const State<Dim>& state, std::size_t b, F f) {
+  using T = Tile<Dim, Shape>;
+  const auto layers = static_cast<int>(state.nodes.layers[b].tile.size());
+  for (int l = 0; l < layers; ++l) {
+    const TileBox<Dim>& box = touched_box(state, b, l);
+    if (box.empty()) continue;
+    for (int k = Dim == 3 ? box.low[Dim - 1] : 0; k < (Dim == 3 ? box.high[Dim - 1] : 1); ++k) {
+      for (int j = box.low[1]; j < box.high[1]; ++j) {
+        const int row = l * T::nodes + (k * T::side + j) * T::side;
+        for (int i = box.low[0]; i < box.high[0]; ++i) f(static_cast<std::size_t>(row + i));
+      }
+    }
+  }
+}
+
+/// f_p S_ip of forces on particles.
+template <int Dim, class Shape>
+void project_forces(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<Vec<Dim>>& load_values,
+                    NodalVector<Dim>* tiles) {
+  using T = Tile<Dim, Shape>;
+  for_slots<Dim, Shape>(
+      state, model, b, state.scratch[b].loaded,
+      [&](const LoadedParticle& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, const Run&) {
+        NodalVector<Dim> f_p = splat_as<NodalVector<Dim>>(0.);
+        for (int k = 0; k < Dim; ++k) f_p[k] = model.loads[loaded.load].share[loaded.entry] * load_values[loaded.load][k];
+        for (int n = 0; n < T::stencil; ++n) {
+          const PairTarget* pair = targets ? &targets[l * T::stencil + n] : nullptr;
+          NodalVector<Dim>& q = tiles[pair ? pair->layer * T::nodes + pair->node : stencil.of.base[l] + T::steps[n]];
+          q = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), flipped(f_p, pair ? pair->flip : 0u), q);
+        }
+      });
+}
+
+template <int Dim>
+bool bears_loads(const BlockScratch<Dim>& scratch) {
+  return !scratch.loaded.empty() || !scratch.faces.empty();
+}
+
+/// Nodes booked the work of body force on mirrored mass as if it were no image.
+template <int Dim, class Shape>
+void correct_body_work(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const Vec<Dim>& body_force,
+                       const MotionRecord<Dim>* motion) {
+  for_packs<Dim, Shape>(
+      state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+        if (model.is_rigid(model.materials[run.material].field)) return;
+        for (int l = 0; l < lanes && targets; ++l) {
+          const double m_p = state.particles.mass(std::size_t{pack} * lanes + l);
+          for_stencil<Dim, Shape>(stencil, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {
+            for (int k = 0; k < Dim; ++k) {
+              const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
+              if (flip >> k & 1u)
+                state.scratch[b].ledger.body_work -= 2 * stencil.weight(n, l) * m_p * body_force[k] * (v - 0.5 * a * dt) * dt;
+            }
+          });
+        }
+      });
+}
+
+}  // namespace
+
+template <int Dim, class Shape>
+void project_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<Vec<Dim>>& load_values,
+                   NodalVector<Dim>* tiles) {
+  if (!bears_loads(state.scratch[b])) return;
+  AlignedArray<NodalVector<Dim>>& loads = state.scratch[b].loads;
+  loads.resize_discarding(state.nodes.layers[b].tile.size() * Tile<Dim, Shape>::nodes);
+  for_touched<Dim, Shape>(state, b, [&](std::size_t i) { loads[i] = splat_as<NodalVector<Dim>>(0.); });
+  project_forces<Dim, Shape>(state, model, b, load_values, loads.data());
+  project_face_loads<Dim, Shape>(state, model, b, loads.data());
+  for_touched<Dim, Shape>(state, b, [&](std::size_t i) { tiles[i] += loads[i]; });
+}
+
+template <int Dim, class Shape>
+void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const Vec<Dim>& body_force) {
+  const bool mirrors = model.any_body_force() && !model.symmetries.empty() && state.blocks.list[b].has_particles();
+  const bool loads = bears_loads(state.scratch[b]);
+  if (!loads && !mirrors) return;
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
+  if (loads) {
+    const double share = model.re_extrapolates() ? 0.5 : 1.;  // account_loads_anew adds the other half
+    double power = 0;
+    for_touched<Dim, Shape>(state, b, [&](std::size_t i) {
+      for (int k = 0; k < Dim; ++k) {
+        const double v_end = motion[i].r[0][k], a = Dim == 2 ? motion[i].r[0][2 + k] : motion[i].r[motion_packs<Dim> - 1][k];
+        power += state.scratch[b].loads[i][k] * (share * v_end - 0.5 * a * dt);
+      }
+    });
+    state.scratch[b].ledger.load_work += power * dt;
+  }
+  if (mirrors) correct_body_work<Dim, Shape>(state, model, b, dt, body_force, motion);
+}
+
+template <int Dim, class Shape>
+void account_loads_anew(State<Dim>& state, std::size_t b, double dt) {
+  if (!bears_loads(state.scratch[b])) return;
+  const NodalVector<Dim>* velocity = gathered<Dim, Shape>(state, b, state.nodes.velocity);
+  double power = 0;
+  for_touched<Dim, Shape>(state, b, [&](std::size_t i) {
+    for (int k = 0; k < Dim; ++k) power += 0.5 * state.scratch[b].loads[i][k] * velocity[i][k];
+  });
+  state.scratch[b].ledger.load_work += power * dt;
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                                  \
+  template void project_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, const std::vector<Vec<DIM>>&, NodalVector<DIM>*); \
+  template void account_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const Vec<DIM>&);                         \
+  template void account_loads_anew<DIM, SHAPE>(State<DIM>&, std::size_t, double);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon
