@@ -13,6 +13,15 @@ namespace crampon {
 
 using VertexId = std::uint32_t;
 
+/// A particle that carries a point of a crack's surface along (step/crack_carriers.hpp).
+struct Carrier {
+  std::uint32_t particle = 0;  ///< id
+  std::uint8_t flip = 0;       ///< bit k: it is the particle's image in a mirror, and component k of its displacement is reversed
+  double weight = 0;           ///< of its displacement in that of the point
+};
+/// Per vertex. The weights of a point add up to 1; a point without carriers goes with the plane.
+using Carriers = std::vector<std::vector<Carrier>>;
+
 /// One crack. In 2D the vertices of facet k are k and k + 1 of a directed polyline; "above" is left of it (CONVENTIONS, head).
 template <int Dim>
 struct Crack {
@@ -24,6 +33,7 @@ struct Crack {
   std::vector<Vec<Dim>> lower;     ///< points of the lower surface, m
   std::vector<Vec<Dim>> original;  ///< vertices at the start, m
   std::vector<std::array<VertexId, Dim>> facets;
+  Carriers upper_carriers, lower_carriers;  ///< of the surface points
 };
 
 template <int Dim>

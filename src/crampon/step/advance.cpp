@@ -5,6 +5,7 @@
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/assign_velocity_fields.hpp"
 #include "crampon/step/boundary.hpp"
+#include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/face_loads.hpp"
 #include "crampon/step/find_contacts.hpp"
@@ -79,6 +80,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     evaluate_loads(state, model, load_values, body_force, damping);
     check_prescribed(state, model, load_values, body_force, damping);
     assign_velocity_fields<Dim, Shape>(state, model);  // Task 0
+    choose_carriers(state, model);
     record_initial_volume<Dim, Shape>(state, model);
   });
   if (!model.faces.empty()) {
@@ -94,7 +96,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   phases.blocks("stress and forces", [&](B b) {                                                                  // Tasks 2, 3
     update_stress_and_project_forces<Dim, Shape>(state, model, b, dt, stress_first ? stress_dt : 0., load_values, body_force);
   });
-  if (model.any_tractions()) phases.serial("crack tractions", [&] { spread_tractions(state, model); });
+  if (model.any_tractions()) phases.serial("crack tractions", [&] { spread_tractions<Dim, Shape>(state, model); });
   phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });  // Tasks 3, 4
   phases.blocks("account loads", [&](B b) {
     account_loads<Dim, Shape>(state, model, b, dt, body_force);
@@ -105,14 +107,16 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });  // Task 6
     phases.blocks("account loads", [&](B b) { account_loads_anew<Dim, Shape>(state, b, dt); });
   }
-  phases.serial("move cracks", [&] {  // Task 8
+  phases.serial("remember contacts", [&] {
     remember_contacts(state);
     remember_rigid_conditions(state, model);
-    move_cracks(state, model, dt);
-    update_tractions(state, model, dt);
   });
   phases.blocks("stress and positions", [&](B b) {  // Tasks 5, 6
     finish_particles<Dim, Shape>(state, model, b, dt, stress_last ? stress_dt : 0., !model.re_extrapolates());
+  });
+  phases.serial("move cracks", [&] {  // Task 8
+    move_cracks(state, model, dt);
+    update_tractions(state, model, dt);
   });
   end_rigid_motion(state);
   state.time += dt;

@@ -60,7 +60,8 @@ ForNodes<NodeShare> nodes_around(const State<2>& state, const Model<2>& model, c
   return out;
 }
 
-Vec<2> CrackSurfaces::off_mirrors(Vec<2> x, const Vec<2>& vertex) const {
+Vec<2> CrackSurfaces::beside(const Vec<2>& vertex, const Vec<2>& out) const {
+  Vec<2> x = vertex + out * nudge_;
   for (const SymmetryPlane& plane : model_.symmetries) {
     const auto k = static_cast<std::size_t>(plane.axis);
     if (std::fabs(vertex[k] - plane.at) < nudge_) x[k] = plane.at + plane.side * nudge_;
@@ -68,46 +69,7 @@ Vec<2> CrackSurfaces::off_mirrors(Vec<2> x, const Vec<2>& vertex) const {
   return x;
 }
 
-Vec<2> CrackSurfaces::seen_from(const Vec<2>& vertex, const Vec<2>& surface, const Vec<2>& out) const {
-  const Vec<2> beside = off_mirrors(vertex + out * nudge_, vertex);
-  if (!(dot(surface - vertex, out) > nudge_)) return beside;
-  const Vec<2> itself = off_mirrors(surface, vertex);
-  Signature between;
-  const bool sees = signatures(beside, {&itself, 1}, &between) == 0;
-  return sees && between.empty() ? itself : beside;
-}
-
-CrackSurfaces::Faces CrackSurfaces::faces(const Crack<2>& crack, std::size_t v) const {
-  const Vec<2>&plane = crack.plane[v], &upper = crack.upper[v], &lower = crack.lower[v];
-  const Vec<2> down = vertex_normal(crack, v);
-  return {nodes(seen_from(plane, upper, -down), upper), nodes(seen_from(plane, lower, down), lower)};
-}
-
-SurfaceNodes CrackSurfaces::nodes(const Vec<2>& from, const Vec<2>& x) const {
-  SurfaceNodes out;
-  const ForNodes<NodeShare> around = nodes_around(state_, model_, x);
-  ForNodes<Vec<2>> places;
-  for (const NodeShare& node : around) places.push_back(node.x);
-  std::array<Signature, 9> sides;
-  const unsigned too_many = signatures(from, {places.data(), places.size()}, sides.data());
-  double mass = 0, shape = 0;
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    if (too_many >> i & 1u) continue;
-    SurfaceNode on{around[i], sides[i], splat(0.), 0};
-    for_layers(on.node, on.side, [&](std::size_t slot) { on.p += state_.nodes.momentum[slot]; });
-    if (!(on.p[2] > 0)) continue;
-    mass += on.node.S * on.p[2];
-    shape += on.node.S;
-    out.push_back(on);
-  }
-  const double light = 0.5 * mass / shape;
-  double sum = 0;
-  for (SurfaceNode& on : out) sum += on.weight = on.node.S * std::fmin(1., on.p[2] / light);
-  for (SurfaceNode& on : out) on.weight /= sum;
-  return out;
-}
-
-unsigned CrackSurfaces::signatures(const Vec<2>& from, std::span<const Vec<2>> places, Signature* sides) const {
+unsigned CrackSurfaces::hidden(const Vec<2>& from, std::span<const Vec<2>> places) const {
   // The cells of all lines; what a line only touches, or rounding puts beside it, is within the bins' margin.
   constexpr double touching = 1e-10;
   std::array<int, 2> low, high;
@@ -123,7 +85,7 @@ unsigned CrackSurfaces::signatures(const Vec<2>& from, std::span<const Vec<2>> p
   }
   static thread_local std::vector<FacetRef> room;
   const std::span<const FacetRef> facets = view_.bins.facets_of_box(low, high, room);
-  unsigned too_many = 0;
+  unsigned hidden = 0;
   std::array<Crossing, 9> crossings;
   for (std::size_t f = 0; f < facets.size();) {
     const CrackId c = facets[f].crack;
@@ -131,10 +93,10 @@ unsigned CrackSurfaces::signatures(const Vec<2>& from, std::span<const Vec<2>> p
     while (f < facets.size() && facets[f].crack == c) ++f;
     cross_stencil(view_.paths[c], facets.subspan(first, f - first), from, places, {crossings.data(), places.size()});
     for (std::size_t i = 0; i < places.size(); ++i) {
-      if (crossings[i].crosses() && !sides[i].append(c)) too_many |= 1u << i;
+      if (crossings[i].crosses()) hidden |= 1u << i;
     }
   }
-  return too_many;
+  return hidden;
 }
 
 }  // namespace crampon

@@ -1,5 +1,5 @@
 #pragma once
-/// The nodes about a point of a crack's surface, and which fields there belong to that surface.
+/// The nodes about a point of a crack, and what is seen from there.
 
 #include <array>
 #include <cstdint>
@@ -43,55 +43,19 @@ struct NodeShare {
 /// The nodes that S reaches from x, of blocks that are there.
 ForNodes<NodeShare> nodes_around(const State<2>& state, const Model<2>& model, const Vec<2>& x);
 
-/// A node with mass on one side of all cracks.
-struct SurfaceNode {
-  NodeShare node;
-  Signature side;
-  Pack p;  ///< {p, m} there, of all materials (N13 sec. 2.9)
-  double weight;
-};
-
-/// The nodes about a point of a surface; none where no node has mass. The weights add up to 1 and serve motion and tractions alike, so that
-/// a traction's work on the nodes is its work on the opening. They are those of the plane, S: where faces press on each other they share
-/// the normal velocity at every node, and both surfaces then move as one; weights by mass let them drift by the strain over a third of a
-/// cell. Only nodes with less than half the mean mass weigh less, in proportion: a traction would throw them about.
-using SurfaceNodes = ForNodes<SurfaceNode>;
-
-/// Tells which fields lie on which side of the cracks as State::crack_view has them.
+/// What can be seen from beside a crack, of the cracks as State::crack_view has them.
 class CrackSurfaces {
  public:
   CrackSurfaces(const State<2>& state, const Model<2>& model)
-      : state_(state), model_(model), view_(state.crack_view), nudge_(1e-8 * model.grid.smallest_cell()) {}
+      : model_(model), view_(state.crack_view), nudge_(1e-8 * model.grid.smallest_cell()) {}
 
-  /// The nodes about the two surface points of a vertex, each with mass on its own side.
-  struct Faces {
-    SurfaceNodes upper, lower;
-  };
-  Faces faces(const Crack<2>& crack, std::size_t vertex) const;
-
-  /// f(slot of the node in the nodal arrays) for the fields of one side of all cracks; not those of rigid bodies.
-  template <class F>
-  void for_layers(const NodeShare& node, const Signature& side, F f) const {
-    const BlockLayers<2>& layers = state_.nodes.layers[node.block];
-    for (std::size_t l = 0; l < layers.node.size(); ++l) {
-      if (layers.node[l].cracks != side || model_.is_whole(layers.node[l].field)) continue;
-      f(layers.slot(l, node.local));
-    }
-  }
+  /// A hair beside a vertex of the plane, to the side of the unit vector `out`. On a mirror, where the path ends but not the crack, a little
+  /// inside the body.
+  Vec<2> beside(const Vec<2>& vertex, const Vec<2>& out) const;
+  /// Bit i is set when a crack lies between `from` and place i, of up to nine.
+  unsigned hidden(const Vec<2>& from, std::span<const Vec<2>> places) const;
 
  private:
-  /// Where a side is looked at from: the surface point; where that may lie a hair beyond a crack and would go with the wrong side for good,
-  /// that is while its own crack is closed or across another one, the vertex of the plane, moved a little to the side. On a mirror, where the
-  /// path ends but not the crack, a little inside the body. `out` is the unit normal at the vertex to that side.
-  Vec<2> seen_from(const Vec<2>& vertex, const Vec<2>& surface, const Vec<2>& out) const;
-  /// The nodes around x with mass on the side of `from`.
-  SurfaceNodes nodes(const Vec<2>& from, const Vec<2>& x) const;
-  /// x, which belongs to the vertex; where that lies on a mirror, x as far along the mirror and a little inside.
-  Vec<2> off_mirrors(Vec<2> x, const Vec<2>& vertex) const;
-  /// Cracks between `from` and each of up to nine places, into sides; bit i of what is returned: too many for place i.
-  unsigned signatures(const Vec<2>& from, std::span<const Vec<2>> places, Signature* sides) const;
-
-  const State<2>& state_;
   const Model<2>& model_;
   const CrackView& view_;
   double nudge_;  ///< m

@@ -3,26 +3,30 @@
 #include <cmath>
 #include <limits>
 
+#include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/crack_surfaces.hpp"
+#include "crampon/step/instantiate.hpp"
 #include "crampon/step/move_cracks.hpp"
 
 namespace crampon {
 
 namespace {
 
-/// What a force on a surface point moves: with a share w of it for each node, 1/sum(w^2/m), kg; 0: nothing.
-double moved_mass(const SurfaceNodes& nodes) {
+/// What a force on a surface point moves: with a share w of it for each node, 1/sum(w^2/m), kg.
+double moved_mass(const State<2>& state, const std::vector<NodeOfPoint>& nodes) {
   double sum = 0;
-  for (const SurfaceNode& on : nodes) sum += on.weight * on.weight / on.p[2];
-  return sum > 0 ? 1 / sum : 0.;
+  for (const NodeOfPoint& on : nodes) sum += on.weight * on.weight / state.nodes.momentum[on.slot][2];
+  return 1 / sum;
 }
 
-/// Shares f among the nodes, and among the materials there by mass.
-void share_force(State<2>& state, const CrackSurfaces& surfaces, const SurfaceNodes& nodes, const Vec<2>& f) {
-  for (const SurfaceNode& on : nodes) {
-    surfaces.for_layers(on.node, on.side, [&](std::size_t slot) {
-      state.scratch[on.node.block].tractions.push_back({slot, f * (on.weight * state.nodes.momentum[slot][2] / on.p[2])});
-    });
+/// Gives a force on a surface point to the nodes that move it.
+void share_force(State<2>& state, const std::vector<NodeOfPoint>& nodes, const Vec<2>& f) {
+  for (const NodeOfPoint& on : nodes) {
+    Vec<2> share = f * on.weight;
+    for (int k = 0; k < 2; ++k) {
+      if (on.flip >> k & 1u) share[k] = -share[k];
+    }
+    state.scratch[on.block].tractions.push_back({on.slot, share});
   }
 }
 
@@ -51,33 +55,34 @@ void start_tractions<2>(State<2>& state, const Model<2>& model) {
   }
 }
 
-template <>
-void spread_tractions<2>(State<2>& state, const Model<2>& model) {
-  if (!model.any_tractions()) return;
-  for (auto& scratch : state.scratch) scratch.tractions.clear();
-  const CrackSurfaces surfaces(state, model);
-  state.traction_time_step = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < state.cracks.size(); ++c) {
-    const Crack<2>& crack = state.cracks.list[c];
-    CrackTractionState<2>& t = state.tractions[c];
-    const double stiffness = largest_stiffness(model.tractions[c].law);
-    for (std::size_t v = 0; v < t.area.size(); ++v) {
-      if (t.area[v] == 0 || t.history[v].failed != 0) continue;
-      const auto [above, below] = surfaces.faces(crack, v);
-      t.between[v] = !above.empty() && !below.empty();
-      if (!t.between[v]) continue;  // a side without mass bears nothing, and neither does the other then
-      share_force(state, surfaces, above, t.force[v]);
-      share_force(state, surfaces, below, -t.force[v]);
-      if (!(stiffness > 0)) continue;
-      // The nodes about a vertex bear the springs of a whole cell of crack (docs/theory/traction.md, time step).
-      double cell = 0;
-      for (int k = 0; k < 2; ++k) cell = std::fmax(cell, model.grid.cell[k]);
-      const double m_a = moved_mass(above), m_b = moved_mass(below);
-      const double spring = stiffness * std::fmax(t.area[v], cell * model.tractions[c].thickness);
-      state.traction_time_step = std::fmin(state.traction_time_step, std::sqrt(m_a * m_b / ((m_a + m_b) * spring)));
+template <int Dim, class Shape>
+void spread_tractions(State<Dim>& state, const Model<Dim>& model) {
+  if constexpr (Dim == 2) {
+    for (auto& scratch : state.scratch) scratch.tractions.clear();
+    state.traction_time_step = std::numeric_limits<double>::infinity();
+    const double cell = std::fmax(model.grid.cell[0], model.grid.cell[1]);
+    std::vector<NodeOfPoint> above, below;
+    for (std::size_t c = 0; c < state.cracks.size(); ++c) {
+      const Crack<2>& crack = state.cracks.list[c];
+      CrackTractionState<2>& t = state.tractions[c];
+      const double stiffness = largest_stiffness(model.tractions[c].law);
+      for (std::size_t v = 0; v < t.area.size(); ++v) {
+        if (t.area[v] == 0 || t.history[v].failed != 0) continue;
+        t.between[v] = !crack.upper_carriers[v].empty() && !crack.lower_carriers[v].empty();
+        if (!t.between[v]) continue;  // a side without material bears nothing, and neither does the other then
+        find_nodes_of_point<Shape>(state, model, crack.upper_carriers[v], above);
+        find_nodes_of_point<Shape>(state, model, crack.lower_carriers[v], below);
+        share_force(state, above, t.force[v]);
+        share_force(state, below, -t.force[v]);
+        if (!(stiffness > 0)) continue;
+        // The nodes about a vertex bear the springs of a whole cell of crack (docs/theory/traction.md, time step).
+        const double m_a = moved_mass(state, above), m_b = moved_mass(state, below);
+        const double spring = stiffness * std::fmax(t.area[v], cell * model.tractions[c].thickness);
+        state.traction_time_step = std::fmin(state.traction_time_step, std::sqrt(m_a * m_b / ((m_a + m_b) * spring)));
+      }
     }
+    state.least_traction_time_step = std::fmin(state.least_traction_time_step, state.traction_time_step);
   }
-  state.least_traction_time_step = std::fmin(state.least_traction_time_step, state.traction_time_step);
 }
 
 template <int Dim>
@@ -125,10 +130,11 @@ void update_tractions<2>(State<2>& state, const Model<2>& model, double dt) {
 template <>
 void start_tractions<3>(State<3>&, const Model<3>&) {}
 template <>
-void spread_tractions<3>(State<3>&, const Model<3>&) {}
-template <>
 void update_tractions<3>(State<3>&, const Model<3>&, double) {}
 template void add_tractions<2>(State<2>&, std::size_t);
 template void add_tractions<3>(State<3>&, std::size_t);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void spread_tractions<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
 
 }  // namespace crampon

@@ -11,9 +11,8 @@ namespace crampon {
 template <int Dim>
 void start_tractions(State<Dim>& state, const Model<Dim>& model);
 
-/// Between Tasks 2 and 3: shares the forces on the surface points among the nodes about them, by mass and linear functions; the longest
-/// stable step. Serial.
-template <int Dim>
+/// Between Tasks 2 and 3: shares the forces on the surface points among the nodes that move them; the longest stable step. Serial.
+template <int Dim, class Shape>
 void spread_tractions(State<Dim>& state, const Model<Dim>& model);
 
 /// Task 3, own nodes of a block: adds them.

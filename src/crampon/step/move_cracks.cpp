@@ -4,13 +4,14 @@
 #include <optional>
 
 #include "crampon/core/parallel.hpp"
+#include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/crack_surfaces.hpp"
 
 namespace crampon {
 
 namespace {
 
-/// Centre-of-mass velocity of all fields around x; none when no node there has mass.
+/// Centre-of-mass velocity of all fields at x, m/s; none when a node about has no mass: of the others alone it would be that of another place.
 std::optional<Vec<2>> plane_velocity(const State<2>& state, const Model<2>& model, const Vec<2>& x) {
   Vec<2> sum{};
   double weight = 0;
@@ -25,42 +26,77 @@ std::optional<Vec<2>> plane_velocity(const State<2>& state, const Model<2>& mode
     for (int k = 0; k < 2; ++k) sum[k] += node.S * p[k] / p[2];
     weight += node.S;
   }
-  if (!(weight > 0)) return std::nullopt;
-  return sum * (1 / weight);
+  if (weight < 1 - 1e-9) return std::nullopt;
+  return sum;
 }
 
-/// The same for one surface: of the fields of that side.
-std::optional<Vec<2>> surface_velocity(const SurfaceNodes& nodes) {
-  if (nodes.empty()) return std::nullopt;
-  Vec<2> v{};
-  for (const SurfaceNode& on : nodes) {
-    for (int k = 0; k < 2; ++k) v[k] += on.weight * on.p[k] / on.p[2];
-  }
-  return v;
-}
-
-/// Vertices without a velocity take that of the nearest vertex along the crack that has one; none has: they stay.
-void fill_gaps(std::vector<std::optional<Vec<2>>>& v) {
-  const std::vector<std::optional<Vec<2>>> known = v;
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    for (std::size_t d = 1; !v[i] && d < v.size(); ++d) {
+/// Vertices without a displacement take that of the nearest vertex along the crack that has one; none has: they stay.
+void fill_gaps(std::vector<std::optional<Vec<2>>>& moved) {
+  const std::vector<std::optional<Vec<2>>> known = moved;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    for (std::size_t d = 1; !moved[i] && d < moved.size(); ++d) {
       if (i >= d && known[i - d]) {
-        v[i] = known[i - d];
-      } else if (i + d < v.size() && known[i + d]) {
-        v[i] = known[i + d];
+        moved[i] = known[i - d];
+      } else if (i + d < moved.size() && known[i + d]) {
+        moved[i] = known[i + d];
       }
     }
+    if (!moved[i]) moved[i] = Vec<2>{};
   }
 }
 
-/// Faces in contact do not cross the plane between them; what is beyond it is the drift of a surface point that was open for long,
-/// and is taken back (fracture.md 6.4, "no plane crossing").
-void keep_sides(Crack<2>& crack) {
-  for (std::size_t v = 0; v < crack.plane.size(); ++v) {
-    const Vec<2> down = vertex_normal(crack, v);
-    const double upper = dot(crack.upper[v] - crack.plane[v], down), lower = dot(crack.lower[v] - crack.plane[v], down);
-    if (upper > 0) crack.upper[v] -= down * upper;
-    if (lower < 0) crack.lower[v] -= down * lower;
+/// A vertex that has drifted out from between its surface points goes back into their middle, along its normal. Where the faces have slid
+/// past each other by more than a cell, what was opposite at the start no longer says where the plane is.
+Vec<2> between_surfaces(const Crack<2>& crack, const Model<2>& model, std::size_t v) {
+  const Vec<2> down = vertex_normal(crack, v);
+  const double upper = dot(crack.upper[v] - crack.plane[v], down), lower = dot(crack.lower[v] - crack.plane[v], down);
+  Vec<2> x = crack.plane[v];
+  if ((upper <= 0 && lower >= 0) || std::fabs(opening_at(crack, v).sliding) > model.grid.smallest_cell()) return x;
+  x += down * (0.5 * (upper + lower));
+  for (const SymmetryPlane& mirror : model.symmetries) {
+    const auto k = static_cast<std::size_t>(mirror.axis);
+    if (std::fabs(crack.plane[v][k] - mirror.at) < 1e-8 * model.grid.smallest_cell()) x[k] = crack.plane[v][k];
+  }
+  return x;
+}
+
+/// How far the surface points move, as their carriers say.
+std::vector<std::optional<Vec<2>>> surface_motion(const State<2>& state, const std::vector<Vec<2>>& surface,
+                                                  const std::vector<Vec<2>>& original, const Carriers& carriers) {
+  std::vector<std::optional<Vec<2>>> moved(surface.size());
+  for (std::size_t v = 0; v < surface.size(); ++v) {
+    if (!carriers[v].empty()) moved[v] = original[v] + carried_displacement(state, carriers[v]) - surface[v];
+  }
+  return moved;
+}
+
+void move_crack(const State<2>& state, const Model<2>& model, double dt, Crack<2>& crack) {
+  const std::size_t n = crack.plane.size();
+  auto upper = surface_motion(state, crack.upper, crack.original, crack.upper_carriers);
+  auto lower = surface_motion(state, crack.lower, crack.original, crack.lower_carriers);
+  std::vector<std::optional<Vec<2>>> plane(n);
+  parallel_for(n, model.threads, [&](std::size_t v) {
+    if (const auto velocity = plane_velocity(state, model, crack.plane[v])) {
+      plane[v] = *velocity * dt;
+    } else if (upper[v] && lower[v]) {
+      plane[v] = (*upper[v] + *lower[v]) * 0.5;
+    } else {
+      plane[v] = upper[v] ? upper[v] : lower[v];
+    }
+  });
+  fill_gaps(plane);
+  for (std::size_t v = 0; v < n; ++v) {
+    crack.upper[v] += upper[v] ? *upper[v] : *plane[v];
+    crack.lower[v] += lower[v] ? *lower[v] : *plane[v];
+    if (!crack.fixed) crack.plane[v] += *plane[v];
+  }
+  if (!crack.fixed) {
+    std::vector<Vec<2>> between(n);
+    for (std::size_t v = 0; v < n; ++v) between[v] = between_surfaces(crack, model, v);
+    crack.plane = std::move(between);
+  }
+  if (crack.closed) {
+    for (auto* x : {&crack.plane, &crack.upper, &crack.lower}) x->back() = x->front();
   }
 }
 
@@ -73,46 +109,7 @@ CrackOpening opening_at(const Crack<2>& crack, std::size_t v) {
 
 template <>
 void move_cracks<2>(State<2>& state, const Model<2>& model, double dt) {
-  if (state.cracks.empty()) return;
-  const CrackSurfaces surfaces(state, model);
-  struct Motion {
-    std::vector<std::optional<Vec<2>>> plane, upper, lower;
-  };
-  std::vector<Motion> motion(state.cracks.size());
-  for (std::size_t c = 0; c < state.cracks.size(); ++c) {
-    const Crack<2>& crack = state.cracks.list[c];
-    const std::size_t n = crack.plane.size();
-    motion[c].plane.resize(n);
-    motion[c].upper.resize(n);
-    motion[c].lower.resize(n);
-    parallel_for(n, model.threads, [&](std::size_t v) {
-      motion[c].plane[v] = plane_velocity(state, model, crack.plane[v]);
-      const CrackSurfaces::Faces faces = surfaces.faces(crack, v);
-      motion[c].upper[v] = surface_velocity(faces.upper);
-      motion[c].lower[v] = surface_velocity(faces.lower);
-    });
-    fill_gaps(motion[c].plane);
-    for (std::size_t v = 0; v < n; ++v) {
-      if (!motion[c].upper[v]) motion[c].upper[v] = motion[c].plane[v];
-      if (!motion[c].lower[v]) motion[c].lower[v] = motion[c].plane[v];
-    }
-  }
-  for (std::size_t c = 0; c < state.cracks.size(); ++c) {
-    Crack<2>& crack = state.cracks.list[c];
-    const auto advance = [&](std::vector<Vec<2>>& x, const std::vector<std::optional<Vec<2>>>& v) {
-      for (std::size_t i = 0; i < x.size(); ++i) {
-        if (v[i]) x[i] += *v[i] * dt;
-      }
-    };
-    if (!crack.fixed) advance(crack.plane, motion[c].plane);
-    advance(crack.upper, motion[c].upper);
-    advance(crack.lower, motion[c].lower);
-    const bool faces_meet = !std::holds_alternative<NoContact>(model.crack_laws[c]);
-    if (faces_meet && !crack.fixed) keep_sides(crack);
-    if (crack.closed) {
-      for (auto* x : {&crack.plane, &crack.upper, &crack.lower}) x->back() = x->front();
-    }
-  }
+  for (Crack<2>& crack : state.cracks.list) move_crack(state, model, dt, crack);
 }
 
 template <>

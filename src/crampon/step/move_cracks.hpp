@@ -4,10 +4,10 @@
 
 namespace crampon {
 
-/// Task 8: vertices move with the centre-of-mass velocity of all fields (N03 Eq. 32; CONVENTIONS 39), v = sum S v_cm / sum S over nodes
-/// with mass, linear S. Surface points go with the fields of their own side, in the same way (CrackSurfaces::nodes), and are taken back to the
-/// plane where faces that can touch have drifted through it (docs/decisions/0005). Vertices that see no mass go with the nearest vertex of
-/// their crack that does.
+/// Task 8, after particles have moved. Surface points go with their carriers (step/crack_carriers.hpp). Vertices of the plane move with the
+/// centre-of-mass velocity of all fields (N03 Eq. 32; CONVENTIONS 39), v = sum S v_cm with linear S; where some of the nodes about have no
+/// mass, with the mean of their surface points. The plane stays between its surfaces. Vertices without any of these go with the nearest
+/// vertex of their crack that has one.
 template <int Dim>
 void move_cracks(State<Dim>& state, const Model<Dim>& model, double dt);
 

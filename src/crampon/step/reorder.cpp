@@ -6,6 +6,7 @@
 #include "crampon/core/error.hpp"
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/boundary.hpp"
+#include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/instantiate.hpp"
 
 namespace crampon {
@@ -247,9 +248,10 @@ void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
   }
   for (auto& scratch : state.scratch) sort_by_component(scratch.fixed);
 
-  if (model.loads.empty()) return;
-  std::vector<std::uint32_t> slot_of_id(state.particle_count + static_cast<std::size_t>(state.removed), padding_id);
-  std::vector<std::uint32_t> block_of_pack(state.particles.packs);
+  if (model.loads.empty() && state.cracks.empty()) return;
+  auto& [slot_of_id, block_of_pack] = state.places;
+  slot_of_id.assign(state.particle_count + static_cast<std::size_t>(state.removed), padding_id);
+  block_of_pack.resize(state.particles.packs);
   for (std::size_t p = 0; p < state.particles.size(); ++p) {
     if (!state.particles.is_padding(p)) slot_of_id[state.particles.id[p]] = static_cast<std::uint32_t>(p);
   }
@@ -259,6 +261,7 @@ void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
       std::fill(block_of_pack.begin() + run.first_pack, block_of_pack.begin() + run.end_pack, static_cast<std::uint32_t>(b));
     }
   }
+  if (state.removed > 0) drop_lost_carriers(state);
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
     for (std::size_t e = 0; e < model.loads[l].particles.size(); ++e) {
       const std::uint32_t slot = slot_of_id[model.loads[l].particles[e]];

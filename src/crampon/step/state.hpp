@@ -148,6 +148,12 @@ struct BlockScratch {
   BlockHealth health;
 };
 
+/// Where particles stand now; filled when loads or cracks ask for it.
+struct ParticlePlaces {
+  std::vector<std::uint32_t> slot_of_id;  ///< padding_id: removed on leaving the grid
+  std::vector<std::uint32_t> block_of_pack;
+};
+
 struct Phase {
   std::string name;
   double seconds = 0;
@@ -161,6 +167,7 @@ struct State {
   Cracks<Dim> cracks;
   CrackView crack_view;
   Blocks<Dim> blocks;
+  ParticlePlaces places;
   Nodes<Dim> nodes;
   std::vector<BlockScratch<Dim>> scratch;  ///< per block
   ContactMemory memory;
