@@ -1,11 +1,99 @@
-"""Motion of the crack planes and surfaces: N03 Eq. 32, CONVENTIONS 39, fracture.md 6.4.
+"""Motion of crack planes and surfaces: N03 Eq. 32 and CONVENTIONS 39 for the plane; surface points are carried by particles.
 
-v = sum S v_cm / sum S over nodes with mass; surfaces with the fields of their own side. The momenta are those of Task 6.
+The plane moves with v = sum S v_cm where all nodes about have mass, else with the mean of its surface points. A surface point has the displacement
+that a linear fit to the particles about it, on its side of all cracks, has there; the fit is made once. Ends that lie outside of all particles,
+or on the edge of one, are no tips: there the crack goes on for those who ask what it cuts.
 """
 import math
 
 from crossing import segment_normal
 from shapes import point_2d
+
+REACHES = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0)  # cells
+LEAST_VARIANCE, MOST_LEVERAGE = 0.02, 8.0
+
+
+def extend(model):
+    h = model.grid.h
+    half = 0.5 * h * (2 * model.half_size) + 1e-9 * h
+
+    def material(x):
+        return any(abs(x[0] - p.X[0]) <= half and abs(x[1] - p.X[1]) <= half for p in model.particles)
+
+    def beyond(end, before):
+        L = math.hypot(end[0] - before[0], end[1] - before[1])
+        out = [(end[k] - before[k]) / L for k in range(2)]
+
+        def free(d):
+            return not material([end[k] + out[k] * d for k in range(2)])
+        hair = 1e-6 * h
+        if not free(hair):
+            return 0.0
+        length, step = hair, 0.05 * h
+        while length < 4 * h:
+            if not free(length + step):
+                a, b = length, length + step
+                for _ in range(40):
+                    a, b = ((a + b) / 2, b) if free((a + b) / 2) else (a, (a + b) / 2)
+                return (a + b) / 2 - hair
+            length += step
+        return length
+    for crack in model.cracks:
+        if crack.plane[0] != crack.plane[-1]:
+            crack.extension = beyond(crack.plane[0], crack.plane[1]), beyond(crack.plane[-1], crack.plane[-2])
+
+
+def choose_carriers(model):
+    for crack in model.cracks:
+        crack.carriers = {up: [carriers(model, x, beside(model, x, vertex_normal(crack.plane, k), up)) for k, x in enumerate(crack.plane)]
+                          for up in (1, -1)}
+
+
+def beside(model, vertex, n, up):
+    """A hair off the plane, on a mirror a hair inside the body."""
+    nudge = 1e-8 * model.grid.h
+    x = [vertex[c] - up * nudge * n[c] for c in range(2)]
+    for mirror in model.symmetries:
+        if abs(vertex[mirror.axis] - mirror.at) < nudge:
+            x[mirror.axis] = mirror.at + mirror.side * nudge
+    return x
+
+
+def carriers(model, x, seen_from):
+    """[(particle, signs of the components of its displacement, weight)]"""
+    h, chosen = model.grid.h, []
+    for reach in REACHES:
+        near = []
+        for p in model.particles:
+            y = [(p.x[k] - x[k]) / h for k in range(2)]
+            if max(map(abs, y)) < reach and not model.crossings(seen_from, tuple(p.x))[0]:
+                near.append((p, (1, 1), y))
+        for mirror in model.symmetries:
+            for p, signs, y in list(near):
+                k = mirror.axis
+                image = list(y)
+                image[k] += 2 * (mirror.at - x[k] - y[k] * h) / h
+                if max(map(abs, image)) < reach:
+                    near.append((p, tuple(-s if c == k else s for c, s in enumerate(signs)), image))
+        if not near:
+            continue
+        w = [p.mass * ((1 - abs(y[0]) / reach) * (1 - abs(y[1]) / reach)) ** 2 for p, _, y in near]
+        total = sum(w)
+        mean = [sum(a * y[k] for a, (_, _, y) in zip(w, near)) / total for k in range(2)]
+        C = [[sum(a * (y[i] - mean[i]) * (y[j] - mean[j]) for a, (_, _, y) in zip(w, near)) / total for j in range(2)] for i in range(2)]
+        middle, half = (C[0][0] + C[1][1]) / 2, (C[0][0] - C[1][1]) / 2
+        root = math.hypot(half, C[0][1])
+        angle = 0.5 * math.atan2(C[0][1], half) if root > 1e-12 * middle else 0.0
+        slope, leverage = [0.0, 0.0], 0.0
+        for e, spread in (((math.cos(angle), math.sin(angle)), middle + root), ((-math.sin(angle), math.cos(angle)), middle - root)):
+            if spread >= LEAST_VARIANCE:
+                along = mean[0] * e[0] + mean[1] * e[1]
+                slope = [slope[k] - e[k] * along / spread for k in range(2)]
+                leverage += along * along / spread
+        chosen = [(p, signs, a / total * (1 + sum((y[k] - mean[k]) * slope[k] for k in range(2)))) for a, (p, signs, y) in zip(w, near)]
+        if middle - root >= LEAST_VARIANCE and leverage <= MOST_LEVERAGE:
+            break
+    return chosen
 
 
 def move_cracks(model):
@@ -15,34 +103,38 @@ def move_cracks(model):
         mass[key[0]] = mass.get(key[0], 0.0) + model.m[key]
         for k in range(2):
             total[k] += p[k]
-    pending = []
     for crack in model.cracks:
-        plane = fill([node_average(model, x, momentum, mass) for x in crack.plane])
-        upper, lower = ([side_average(model, crack, k, x, up) or plane[k] for k, x in enumerate(points)]
-                        for points, up in ((crack.upper, 1), (crack.lower, -1)))
-        pending.append((crack, moved(crack.plane, plane, model.dt), moved(crack.upper, upper, model.dt),
-                        moved(crack.lower, lower, model.dt)))
-    for crack, plane, upper, lower in pending:
-        crack.upper, crack.lower = upper, lower
+        upper, lower = ([carried(crack.original[k], held) if held else None for k, held in enumerate(crack.carriers[up])] for up in (1, -1))
+        plane = []
+        for k, x in enumerate(crack.plane):
+            v = node_average(model, x, momentum, mass)
+            surfaces = [[new[k][c] - old[k][c] for c in range(2)]
+                        for new, old in ((upper, crack.upper), (lower, crack.lower)) if new[k] is not None]
+            if v is not None:
+                plane.append([model.dt * c for c in v])
+            else:
+                plane.append([sum(s[c] for s in surfaces) / len(surfaces) for c in range(2)] if surfaces else None)
+        plane = fill(plane)
+        for new, points in ((upper, crack.upper), (lower, crack.lower)):
+            for k, x in enumerate(points):
+                points[k] = tuple(x[c] + plane[k][c] for c in range(2)) if new[k] is None else tuple(new[k])
         if not crack.fixed:
-            crack.plane = plane
-            if crack.law != "none":
-                keep_sides(crack)
+            crack.plane = [tuple(x[c] + d[c] for c in range(2)) for x, d in zip(crack.plane, plane)]
+            crack.plane = [between_surfaces(model, crack, k) for k in range(len(crack.plane))]
 
 
-def moved(points, velocities, dt):
-    return [(x[0] + dt * v[0], x[1] + dt * v[1]) for x, v in zip(points, velocities)]
+def carried(original, held):
+    return [original[c] + sum(w * signs[c] * (p.x[c] - p.X[c]) for p, signs, w in held) for c in range(2)]
 
 
 def node_average(model, point, momentum, mass):
     weight, v = 0.0, [0.0, 0.0]
     for node, S in point_2d(point, model.grid):
-        target, R, _ = model.fold(point, node)
-        if target in mass:
+        if node in mass:
             weight += S
             for k in range(2):
-                v[k] += R[k] * S * momentum[target][k] / mass[target]
-    return None if weight == 0 else (v[0] / weight, v[1] / weight)
+                v[k] += S * momentum[node][k] / mass[node]
+    return None if weight < 1 - 1e-9 else v
 
 
 def vertex_normal(plane, k):
@@ -56,49 +148,20 @@ def vertex_normal(plane, k):
     return n[0] / length, n[1] / length
 
 
-def seen_from(model, crack, k, point, up):
-    """The surface point, or the plane's vertex just off the plane: while the point is not off it itself, or lies across another crack.
-    On a mirror a little inside the body."""
-    nudge, vertex, n = 1e-8 * model.grid.h, crack.plane[k], vertex_normal(crack.plane, k)
-
-    def off_mirrors(x):
-        for mirror in model.symmetries:
-            if abs(vertex[mirror.axis] - mirror.at) < nudge:
-                x[mirror.axis] = mirror.at + mirror.side * nudge
+def between_surfaces(model, crack, k):
+    """A vertex that is not between its surface points goes back to their middle, unless they have slid a cell apart."""
+    x, n, h = crack.plane[k], vertex_normal(crack.plane, k), model.grid.h
+    up, low = (sum((points[k][c] - x[c]) * n[c] for c in range(2)) for points in (crack.upper, crack.lower))
+    slid = -(crack.upper[k][0] - crack.lower[k][0]) * n[1] + (crack.upper[k][1] - crack.lower[k][1]) * n[0]
+    if (up <= 0 <= low) or abs(slid) > h:
         return x
-    beside, itself = off_mirrors([vertex[c] - up * nudge * n[c] for c in range(2)]), off_mirrors(list(point))
-    if -up * sum((point[c] - vertex[c]) * n[c] for c in range(2)) <= nudge or model.crossings(beside, itself)[0]:
-        return beside
-    return itself
+    on_mirror = {m.axis for m in model.symmetries if abs(x[m.axis] - m.at) < 1e-8 * h}
+    return tuple(x[c] if c in on_mirror else x[c] + 0.5 * (up + low) * n[c] for c in range(2))
 
 
-def side_average(model, crack, k, point, up):
-    """v = sum w v / sum w over the fields of this side, w = S min(1, m/(half the mean mass by S)). Nodes beyond a mirror have no mass."""
-    seen, found = seen_from(model, crack, k, point, up), []
-    for node, S in point_2d(point, model.grid):
-        key = (node, model.crossings(seen, model.grid.position(node))[0])
-        if key in model.m and S > 0:
-            found.append((S, key))
-    if not found:
-        return None
-    light = 0.5 * sum(S * model.m[key] for S, key in found) / sum(S for S, _ in found)
-    weights = [S * min(1.0, model.m[key] / light) for S, key in found]
-    return tuple(sum(w * model.p[key][c] / model.m[key] for w, (_, key) in zip(weights, found)) / sum(weights) for c in range(2))
-
-
-def keep_sides(crack):
-    """Surface points of faces that can touch do not stay beyond the plane between them (fracture.md 6.4, no plane crossing)."""
-    for k, x in enumerate(crack.plane):
-        n = vertex_normal(crack.plane, k)
-        for points, side in ((crack.upper, 1), (crack.lower, -1)):
-            beyond = side * sum((points[k][c] - x[c]) * n[c] for c in range(2))
-            if beyond > 0:
-                points[k] = tuple(points[k][c] - side * beyond * n[c] for c in range(2))
-
-
-def fill(velocities):
-    """Vertices without a massive node go with the nearest vertex that has one (CONVENTIONS 39)."""
-    known = [k for k, v in enumerate(velocities) if v is not None]
+def fill(motions):
+    """Vertices that nothing moves go with the nearest vertex that something moves (CONVENTIONS 39)."""
+    known = [k for k, v in enumerate(motions) if v is not None]
     if not known:
-        return [(0.0, 0.0)] * len(velocities)
-    return [v if v is not None else velocities[min(known, key=lambda j: abs(j - k))] for k, v in enumerate(velocities)]
+        return [(0.0, 0.0)] * len(motions)
+    return [v if v is not None else motions[min(known, key=lambda j: abs(j - k))] for k, v in enumerate(motions)]

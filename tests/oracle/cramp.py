@@ -7,7 +7,7 @@ SI throughout. A case is a dictionary; see cases.py.
 import math
 
 import contact as ct
-from crack_motion import move_cracks
+from crack_motion import choose_carriers, extend, move_cracks
 from crossing import crosses_crack, segment_normal
 from parts import Crack, Grid, Particle, Symmetry, function
 from shapes import shape_2d
@@ -43,6 +43,8 @@ class Model:
             share = 1 / len(chosen) if load["kind"] == "total_force" else 1.0
             for p in chosen:
                 p.load.append((share, [function(f) for f in load["value"]]))
+        extend(self)
+        choose_carriers(self)
         self.contact_state = {}  # (node, crack, others): Task-4 state of the last step
         self.crack_side = {}     # (node, crack): side of the particles that look at the node across the crack
         self.reference_volume = None  # by node, of all particles at t = 0
@@ -88,9 +90,9 @@ class Model:
         elif self.update == "usavg":
             self.update_stress(dt / 2)
         self.store_contact_state()
-        move_cracks(self)                                      # Task 8 of N13
         for p, x in zip(self.particles, moved):
             p.x = x
+        move_cracks(self)                                      # Task 8 of N13
         self.k += 1
         self.t = self.k * dt
 
@@ -99,7 +101,7 @@ class Model:
         """Signature of the line from a point to a node, and (crack, side, segments) of each crack it crosses."""
         found = []
         for crack in self.cracks:
-            side, segments = crosses_crack(tuple(point), node_position, crack.plane)
+            side, segments = crosses_crack(tuple(point), node_position, crack.path(crack.plane))
             if side:
                 found.append((crack, side, segments))
         return frozenset(c.index for c, _, _ in found), found
@@ -128,7 +130,7 @@ class Model:
                     key = (target, crack.index)
                     n, N = normal.setdefault(key, [0.0, 0.0]), original.setdefault(key, [0.0, 0.0])
                     for k in segments:
-                        now, then = segment_normal(crack.plane, k), segment_normal(crack.original, k)
+                        now, then = segment_normal(crack.path(crack.plane), k), segment_normal(crack.path(crack.original), k)
                         for c in range(2):
                             n[c] += R[c] * now[c]
                             N[c] += R[c] * then[c]

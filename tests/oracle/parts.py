@@ -30,9 +30,21 @@ class Crack:
         self.friction = spec.get("friction", 0.0)
         self.fixed = spec.get("fixed", False)
         self.plane = [tuple(map(float, v)) for v in spec["points"]]
+        self.extension = (0.0, 0.0)  # beyond ends that are no tips (crack_motion.py)
         self.original = list(self.plane)
         self.upper = list(self.plane)
         self.lower = list(self.plane)
+
+    def path(self, vertices):
+        """With what the crack cuts beyond its ends."""
+        out = list(vertices)
+        for end, before, length in ((0, 1, self.extension[0]), (-1, -2, self.extension[1])):
+            if length > 0:
+                a, b = vertices[end], vertices[before]
+                L = math.hypot(a[0] - b[0], a[1] - b[1])
+                x = tuple(a[k] + (a[k] - b[k]) / L * length for k in range(2))
+                out = [x] + out if end == 0 else out + [x]
+        return out
 
 
 class Particle:

@@ -11,6 +11,7 @@
 #include "crampon/run/build_bodies.hpp"
 #include "crampon/run/build_contact.hpp"
 #include "crampon/run/build_loads.hpp"
+#include "crampon/run/crack_ends.hpp"
 #include "crampon/run/initial_stress.hpp"
 #include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/face_loads.hpp"
@@ -144,7 +145,7 @@ void build_conditions(const Problem& problem, Model<Dim>& model, std::vector<Dia
   check_contradictions(model, stated, errors);
 }
 
-CrackTraction build_traction(const Problem& problem, const CrackInput& in, const Crack<2>& crack, double slack,
+CrackTraction build_traction(const Problem& problem, const CrackInput& in, const Crack<2>& crack, const Material2D& material, double slack,
                              std::vector<Diagnostic>& errors) {
   CrackTraction out;
   out.law = in.traction;
@@ -156,19 +157,21 @@ CrackTraction build_traction(const Problem& problem, const CrackInput& in, const
         {in.at("traction"), "the bodies differ in thickness", "it is not clear on which the traction acts", "add thickness to the crack"});
     break;
   }
-  bool any = false;
-  for (const Vec<2>& x : crack.plane) {
-    out.bears.push_back(!in.traction_region || in.traction_region->contains(in_space(x), slack));
-    any = any || out.bears.back();
-  }
-  if (!any)
+  std::vector<bool> bears;
+  for (const Vec<2>& x : crack.plane) bears.push_back(!in.traction_region || in.traction_region->contains(in_space(x), slack));
+  if (std::find(bears.begin(), bears.end(), true) == bears.end()) {
     errors.push_back({in.at("traction_region"), fmt::format("no vertex of the crack \"{}\" lies in the region", in.name),
                       "the traction would act nowhere", "enlarge the region"});
+  }
+  out.area = areas_between(crack, bears, material);
+  for (double& area : out.area) area *= out.thickness;
   return out;
 }
 
-void build_cracks(const Problem& problem, Model<2>& model, Cracks<2>& cracks, std::vector<Diagnostic>& errors) {
+void build_cracks(const Problem& problem, const BuiltBodies<2>& bodies, BuiltModel<2>& out, std::vector<Diagnostic>& errors) {
+  Model<2>& model = out.model;
   const Grid<2>& grid = model.grid;
+  const Material2D material(problem, bodies, grid);
   for (const CrackInput& in : problem.cracks) {
     const double longest = in.max_segment.value_or(0.5 * grid.smallest_cell());
     Crack<2> crack;
@@ -194,8 +197,10 @@ void build_cracks(const Problem& problem, Model<2>& model, Cracks<2>& cracks, st
     crack.upper = crack.lower = crack.original = crack.plane;
     for (VertexId v = 0; v + 1 < crack.plane.size(); ++v) crack.facets.push_back({v, v + 1});
     model.crack_laws.push_back(in.contact);
-    model.tractions.push_back(build_traction(problem, in, crack, 1e-9 * grid.smallest_cell(), errors));
-    cracks.list.push_back(std::move(crack));
+    crack.extension = extensions(crack, material);
+    model.tractions.push_back(build_traction(problem, in, crack, material, 1e-9 * grid.smallest_cell(), errors));
+    out.cracked.push_back(between_material(crack, material));
+    out.state.cracks.list.push_back(std::move(crack));
   }
 }
 
@@ -275,7 +280,7 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   model.bodies = bodies.names;
   build_conditions(problem, model, errors);
   build_contact(problem, model, out.state, errors);
-  if constexpr (Dim == 2) build_cracks(problem, model, out.state.cracks, errors);
+  if constexpr (Dim == 2) build_cracks(problem, bodies, out, errors);
   if (errors.empty()) build_loads(problem, bodies, out.state.cracks, model, errors);
   if (!errors.empty()) throw InputError(std::move(errors));
   place_particles(bodies, model, out.state);

@@ -9,6 +9,7 @@ template <int Dim>
 struct BuiltModel {
   Model<Dim> model;
   State<Dim> state;
+  std::vector<std::vector<bool>> cracked;  ///< per crack and vertex: there is material on both sides at the start
 };
 
 /// Grid, laws, particles, cracks, conditions and loads of a problem. threads <= 0: all cores.

@@ -36,13 +36,23 @@ class Engine final : public Simulation {
     time_step_ = time_.step ? *time_.step : time_.courant * stable_time_step();
     place_probes(problem);
     initial_energy_ = energy();
+    cracked_ = std::move(built.cracked);
     for (const Diagnostic& note : find_notes(Start<Dim>{problem, model_, state_, time_step_, end_time()}))
       notes_at_start_.push_back(note.text());
+    const StiffestVertex stiffest = find_stiffest_vertex<Dim, Shape>(state_, model_);
+    check_traction_step(stiffest);
+    if (!time_.step && stiffest.time_step < time_step_) {
+      notes_at_start_.push_back(
+          fmt::format("the traction law of the crack \"{}\" asks for steps of {:.3g} s; without it they would be of {:.3g} s",
+                      state_.cracks.list[stiffest.crack].name, stiffest.time_step, time_step_));
+    }
   }
 
   void step(double longest) override {
     if (!time_.step && watches_wave_speed_ && state_.step % 10 == 0 && state_.step > 0) time_step_ = time_.courant * stable_time_step();
-    double dt = time_.step ? time_step_ : std::fmin(time_step_, state_.traction_time_step);
+    double dt = longest_step();
+    if (!time_.step && state_.traction_time_step < shortest_for_tractions * time_step_)
+      check_traction_step(find_stiffest_vertex<Dim, Shape>(state_, model_));
     const double left = std::fmin(longest, end_time_or_infinity()) - state_.time;
     bool hits = false;
     if (left > 0 && left <= dt * (1 + 1e-9)) {
@@ -70,8 +80,8 @@ class Engine final : public Simulation {
     s.active_cells = active_cells();
     s.cracks = static_cast<std::int64_t>(state_.cracks.size());
     for (const auto& c : state_.cracks.list) s.crack_segments += static_cast<std::int64_t>(c.facets.size());
-    s.time_step = time_step_;
-    s.steps = time_.steps ? *time_.steps : static_cast<std::int64_t>(std::ceil(end_ / time_step_ - 1e-9));
+    s.time_step = longest_step();
+    s.steps = time_.steps ? *time_.steps : static_cast<std::int64_t>(std::ceil(end_ / s.time_step - 1e-9));
     const double blocks = static_cast<double>(s.active_cells) / block_nodes<Dim>;
     s.memory_bytes = static_cast<double>(state_.particles.bytes()) * 2 +  // twice while particles are re-ordered
                      blocks * Tile<Dim, Shape>::nodes * (sizeof(Pack) + sizeof(NodalVector<Dim>)) +
@@ -184,7 +194,7 @@ class Engine final : public Simulation {
     }
     for (const Vec<Dim>& load : total_loads(state_, model_, state_.time)) row.insert(row.end(), load.c.begin(), load.c.end());
     if constexpr (Dim == 2) {
-      for (const auto& crack : state_.cracks.list) add_openings(crack, row);
+      for (std::size_t c = 0; c < state_.cracks.size(); ++c) add_openings(state_.cracks.list[c], cracked_[c], row);
     }
     for (const Probe& probe : probes_) {
       const auto& [ids, f] = probed(probe.quantity);
@@ -266,6 +276,21 @@ class Engine final : public Simulation {
 
   double end_time_or_infinity() const { return time_.end ? end_ : std::numeric_limits<double>::infinity(); }
 
+  double longest_step() const { return time_.step ? time_step_ : std::fmin(time_step_, state_.traction_time_step); }
+
+  /// A law that forces far shorter steps than the material does would leave a run that never ends.
+  void check_traction_step(const StiffestVertex& stiffest) const {
+    if (time_.step || !(stiffest.time_step < shortest_for_tractions * time_step_)) return;
+    if constexpr (Dim == 2) {
+      const Crack<2>& crack = state_.cracks.list[stiffest.crack];
+      const Vec<2>& x = crack.plane[stiffest.vertex];
+      throw RunError(fmt::format(
+          "step {} (t = {:.6g} s): the traction law of the crack \"{}\" at ({:.6g}, {:.6g}) m bears steps of {:.3g} s at most, less than a "
+          "thousandth of the {:.3g} s without it; lower its stiffness: 10 to 50 times E over the size of a cell is enough",
+          state_.step + 1, state_.time, crack.name, x[0], x[1], stiffest.time_step, time_step_));
+    }
+  }
+
   /// Smallest cell over fastest wave (kinematics.md 12); laws whose waves change with strain are asked for the present speed.
   double stable_time_step() {
     double fastest = 0;
@@ -337,12 +362,15 @@ class Engine final : public Simulation {
     return components == 6 ? tensor[k] : "";
   }
 
-  /// Over inner vertices, where both surfaces exist; over all when there are none.
-  void add_openings(const Crack<2>& crack, std::vector<double>& row) const {
+  /// Over the vertices with material on both sides but for ends; over all when there are none.
+  void add_openings(const Crack<2>& crack, const std::vector<bool>& cracked, std::vector<double>& row) const {
     const std::size_t n = crack.plane.size();
-    const std::size_t first = n > 2 && !crack.closed ? 1 : 0, end = n > 2 && !crack.closed ? n - 1 : n;
+    const auto counts = [&](std::size_t v) { return cracked[v] && (crack.closed || (v > 0 && v + 1 < n)); };
+    bool any = false;
+    for (std::size_t v = 0; v < n; ++v) any = any || counts(v);
     double low = std::numeric_limits<double>::infinity(), high = -low, slid = 0;
-    for (std::size_t v = first; v < end; ++v) {
+    for (std::size_t v = 0; v < n; ++v) {
+      if (any && !counts(v)) continue;
       const CrackOpening o = opening_at(crack, v);
       low = std::fmin(low, o.opening);
       high = std::fmax(high, o.opening);
@@ -355,6 +383,9 @@ class Engine final : public Simulation {
   Model<Dim> model_;
   State<Dim> state_;
   double time_step_ = 0, end_ = 0, initial_energy_ = 0;
+  /// Of the step that waves allow: what traction laws may ask for at least.
+  static constexpr double shortest_for_tractions = 1e-3;
+  std::vector<std::vector<bool>> cracked_;  ///< BuiltModel::cracked
   std::vector<std::string> notes_at_start_;
   bool watches_wave_speed_ = false;
   std::vector<Probe> probes_;

@@ -34,6 +34,8 @@ struct Crack {
   std::vector<Vec<Dim>> original;  ///< vertices at the start, m
   std::vector<std::array<VertexId, Dim>> facets;
   Carriers upper_carriers, lower_carriers;  ///< of the surface points
+  /// How far the path goes on beyond its start and its end for those who ask what it cuts, m; 0: the end is a tip (run/crack_ends.hpp).
+  std::array<double, 2> extension{};
 };
 
 template <int Dim>

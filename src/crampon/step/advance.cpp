@@ -125,7 +125,20 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   check_health<Dim, Shape>(state, model, dt);
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void advance<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double);
+template <int Dim, class Shape>
+StiffestVertex find_stiffest_vertex(State<Dim>& state, const Model<Dim>& model) {
+  if (!model.any_tractions()) return {};
+  if (state.must_reorder) reorder<Dim, Shape>(state, model);
+  assign_velocity_fields<Dim, Shape>(state, model);
+  choose_carriers(state, model);
+  parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) { project_momentum<Dim, Shape>(state, model, b); });
+  parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) { assemble_momentum<Dim, Shape>(state, b); });
+  return spread_tractions<Dim, Shape>(state, model);
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                      \
+  template void advance<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double); \
+  template StiffestVertex find_stiffest_vertex<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

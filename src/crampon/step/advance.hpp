@@ -1,4 +1,5 @@
 #pragma once
+#include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/model.hpp"
 #include "crampon/step/state.hpp"
 
@@ -8,5 +9,10 @@ namespace crampon {
 /// go bad, a particle leaves the grid (unless such particles are to be removed), moves more than a cell or turns inside out.
 template <int Dim, class Shape>
 void advance(State<Dim>& state, const Model<Dim>& model, double dt);
+
+/// Looks at particles and cracks as the next step will, and finds what traction laws allow for its length (State::traction_time_step).
+/// Without such laws it does nothing.
+template <int Dim, class Shape>
+StiffestVertex find_stiffest_vertex(State<Dim>& state, const Model<Dim>& model);
 
 }  // namespace crampon

@@ -52,8 +52,9 @@ class ParticleMap {
     const Vec<2> r{{reach * grid_.cell[0], reach * grid_.cell[1]}};
     const std::array<int, 2> low = cell_of(x - r), high = cell_of(x + r);
     for (int j = low[1]; j <= high[1]; ++j) {
-      auto at = std::lower_bound(list_.begin(), list_.end(), std::array{j, low[0]},
-                                 [](const Entry& e, const std::array<int, 2>& c) { return std::tuple(e.cell[1], e.cell[0]) < std::tuple(c[0], c[1]); });
+      auto at = std::lower_bound(list_.begin(), list_.end(), std::array{j, low[0]}, [](const Entry& e, const std::array<int, 2>& c) {
+        return std::tuple(e.cell[1], e.cell[0]) < std::tuple(c[0], c[1]);
+      });
       for (; at != list_.end() && at->cell[1] == j && at->cell[0] <= high[0]; ++at) f(*at);
     }
   }
@@ -117,13 +118,14 @@ class CarrierChoice {
   std::vector<Carrier> carriers(const Vec<2>& x, const Vec<2>& from) const {
     std::vector<Carrier> chosen;
     for (const double reach : reaches) {
-      std::vector<Candidate> near = candidates(x, from, reach);
+      const std::vector<Candidate> near = candidates(x, from, reach);
       if (near.empty()) continue;
       std::vector<Vec<2>> y;
       std::vector<double> weights;
       for (const Candidate& c : near) {
         y.push_back(c.y);
-        weights.push_back(state_.particles.mass(c.slot) * (1 - std::fabs(c.y[0]) / reach) * (1 - std::fabs(c.y[1]) / reach));
+        const double near_by = (1 - std::fabs(c.y[0]) / reach) * (1 - std::fabs(c.y[1]) / reach);
+        weights.push_back(state_.particles.mass(c.slot) * near_by * near_by);
       }
       const LinearFit fit(y, weights);
       chosen.clear();
@@ -251,9 +253,9 @@ void find_nodes_of_point(const State<2>& state, const Model<2>& model, const std
     for (int n = 0; n < T::stencil; ++n) {
       const double weight = factors.weight(n, lane) * carrier.weight;
       if (weight == 0) continue;
-      const PairTarget target = targets ? targets[lane * T::stencil + n]
-                                        : PairTarget{static_cast<std::uint16_t>(factors.lowest(lane) + T::steps[n]),
-                                                     static_cast<std::uint8_t>(factors.layer), 0};
+      const PairTarget target =
+          targets ? targets[lane * T::stencil + n]
+                  : PairTarget{static_cast<std::uint16_t>(factors.lowest(lane) + T::steps[n]), static_cast<std::uint8_t>(factors.layer), 0};
       IndexVector<2> local = unflatten<2>(target.node, T::side);
       int neighbour = 0, stride = 1;
       for (int k = 0; k < 2; ++k) {

@@ -1,7 +1,6 @@
 #include "crampon/step/crack_tractions.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/crack_surfaces.hpp"
@@ -43,31 +42,24 @@ void start_tractions<2>(State<2>& state, const Model<2>& model) {
     t.history.assign(n, {});
     t.force.assign(n, Vec<2>{});
     t.stored.assign(n, 0);
-    t.area.assign(n, 0);
     t.between.assign(n, false);
-    // Segments between two vertices that bear the law, half to each.
-    for (std::size_t v = 0; v + 1 < n; ++v) {
-      if (!model.tractions[c].bears[v] || !model.tractions[c].bears[v + 1]) continue;
-      const double half = 0.5 * norm(crack.original[v + 1] - crack.original[v]) * model.tractions[c].thickness;
-      t.area[v] += half;
-      t.area[v + 1] += half;
-    }
   }
 }
 
 template <int Dim, class Shape>
-void spread_tractions(State<Dim>& state, const Model<Dim>& model) {
+StiffestVertex spread_tractions(State<Dim>& state, const Model<Dim>& model) {
+  StiffestVertex stiffest;
   if constexpr (Dim == 2) {
     for (auto& scratch : state.scratch) scratch.tractions.clear();
-    state.traction_time_step = std::numeric_limits<double>::infinity();
     const double cell = std::fmax(model.grid.cell[0], model.grid.cell[1]);
     std::vector<NodeOfPoint> above, below;
     for (std::size_t c = 0; c < state.cracks.size(); ++c) {
       const Crack<2>& crack = state.cracks.list[c];
       CrackTractionState<2>& t = state.tractions[c];
+      const std::vector<double>& area = model.tractions[c].area;
       const double stiffness = largest_stiffness(model.tractions[c].law);
-      for (std::size_t v = 0; v < t.area.size(); ++v) {
-        if (t.area[v] == 0 || t.history[v].failed != 0) continue;
+      for (std::size_t v = 0; v < area.size(); ++v) {
+        if (area[v] == 0 || t.history[v].failed != 0) continue;
         t.between[v] = !crack.upper_carriers[v].empty() && !crack.lower_carriers[v].empty();
         if (!t.between[v]) continue;  // a side without material bears nothing, and neither does the other then
         find_nodes_of_point<Shape>(state, model, crack.upper_carriers[v], above);
@@ -77,12 +69,15 @@ void spread_tractions(State<Dim>& state, const Model<Dim>& model) {
         if (!(stiffness > 0)) continue;
         // The nodes about a vertex bear the springs of a whole cell of crack (docs/theory/traction.md, time step).
         const double m_a = moved_mass(state, above), m_b = moved_mass(state, below);
-        const double spring = stiffness * std::fmax(t.area[v], cell * model.tractions[c].thickness);
-        state.traction_time_step = std::fmin(state.traction_time_step, std::sqrt(m_a * m_b / ((m_a + m_b) * spring)));
+        const double spring = stiffness * std::fmax(area[v], cell * model.tractions[c].thickness);
+        const double longest = std::sqrt(m_a * m_b / ((m_a + m_b) * spring));
+        if (longest < stiffest.time_step) stiffest = {longest, c, v};
       }
     }
+    state.traction_time_step = stiffest.time_step;
     state.least_traction_time_step = std::fmin(state.least_traction_time_step, state.traction_time_step);
   }
+  return stiffest;
 }
 
 template <int Dim>
@@ -101,16 +96,17 @@ void update_tractions<2>(State<2>& state, const Model<2>& model, double dt) {
     const Crack<2>& crack = state.cracks.list[c];
     const CrackTraction& traction = model.tractions[c];
     CrackTractionState<2>& t = state.tractions[c];
+    const std::vector<double>& area = traction.area;
     const bool from_outside = std::holds_alternative<PressureTraction>(traction.law);
-    for (std::size_t v = 0; v < t.area.size(); ++v) {
-      if (t.area[v] == 0) continue;
+    for (std::size_t v = 0; v < area.size(); ++v) {
+      if (area[v] == 0) continue;
       TractionHistory& history = t.history[v];
       if (history.failed == 0 && t.between[v]) {
         const CrackOpening opening = opening_at(crack, v);
         const Vec<3> place{{crack.plane[v][0], crack.plane[v][1], 0}};
         const Traction now = update_traction(traction.law, {opening.opening, opening.sliding}, state.time + dt, place, history);
         const Vec<2> down = vertex_normal(crack, v), tangent{{-down[1], down[0]}};
-        t.force[v] = (down * now.normal - tangent * now.shear) * t.area[v];
+        t.force[v] = (down * now.normal - tangent * now.shear) * area[v];
         t.stored[v] = now.stored;
         if (history.failed != 0) {
           state.events.push_back({state.time + dt, c, crack.plane[v], history.dissipated_normal, history.dissipated_shear});
@@ -118,10 +114,10 @@ void update_tractions<2>(State<2>& state, const Model<2>& model, double dt) {
           t.stored[v] = 0;
         }
       }
-      totals.stored += t.area[v] * t.stored[v];
-      totals.dissipated_normal += t.area[v] * history.dissipated_normal;
-      totals.dissipated_shear += t.area[v] * history.dissipated_shear;
-      if (from_outside) totals.work_of_pressure -= t.area[v] * (history.work_normal + history.work_shear);
+      totals.stored += area[v] * t.stored[v];
+      totals.dissipated_normal += area[v] * history.dissipated_normal;
+      totals.dissipated_shear += area[v] * history.dissipated_shear;
+      if (from_outside) totals.work_of_pressure -= area[v] * (history.work_normal + history.work_shear);
     }
   }
 }
@@ -133,7 +129,7 @@ template <>
 void update_tractions<3>(State<3>&, const Model<3>&, double) {}
 template void add_tractions<2>(State<2>&, std::size_t);
 template void add_tractions<3>(State<3>&, std::size_t);
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void spread_tractions<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template StiffestVertex spread_tractions<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -10,7 +10,7 @@ namespace crampon {
 
 /// A crack as the whole body has it: one that ends on a symmetry plane goes on as its image behind the plane.
 struct SeenCrack {
-  std::vector<Vec<2>> vertices;                   ///< m
+  std::vector<Vec<2>> vertices;                   ///< with those at the ends of its extensions, m
   std::vector<Vec<2>> normals, original_normals;  ///< of its segments
   bool closed = false;
 };

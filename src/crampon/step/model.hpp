@@ -74,8 +74,8 @@ struct VelocityCondition {
 /// A traction law on a crack.
 struct CrackTraction {
   TractionLawSpec law;
-  double thickness = 1;     ///< m
-  std::vector<bool> bears;  ///< per vertex: the law acts there
+  double thickness = 1;      ///< m
+  std::vector<double> area;  ///< per vertex, m2: of its share of the crack with material on both sides; 0: the law does not act
   bool acts() const { return !std::holds_alternative<NoTraction>(law); }
 };
 

@@ -9,8 +9,6 @@
 
 namespace crampon {
 
-namespace {
-
 template <int Dim, class Shape>
 void assemble_momentum(State<Dim>& state, std::size_t b) {
   const BlockLayers<Dim>& layers = state.nodes.layers[b];
@@ -18,6 +16,8 @@ void assemble_momentum(State<Dim>& state, std::size_t b) {
     assemble_layer<Dim, Shape>(state, b, layers.node[l], state.nodes.tile_momentum, &state.nodes.momentum[layers.slot(l, 0)]);
   }
 }
+
+namespace {
 
 template <int Dim, class Shape>
 void assemble_contact_sums(State<Dim>& state, std::size_t b) {
@@ -184,6 +184,7 @@ void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t 
 }
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                   \
+  template void assemble_momentum<DIM, SHAPE>(State<DIM>&, std::size_t);                                                  \
   template void find_shared_nodes<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                               \
   template void settle_start_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);                    \
   template void update_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const Vec<DIM>&, double); \

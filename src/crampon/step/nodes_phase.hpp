@@ -6,6 +6,10 @@
 
 namespace crampon {
 
+/// Task 1: sums the momenta and masses of tiles.
+template <int Dim, class Shape>
+void assemble_momentum(State<Dim>& state, std::size_t block);
+
 /// Task 1: marks the own nodes of a block that hold several fields or are near a wall (BlockLayers::shared), and assembles momenta where
 /// there may be some.
 template <int Dim, class Shape>

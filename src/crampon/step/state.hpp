@@ -115,7 +115,6 @@ struct CrackTractionState {
   std::vector<TractionHistory> history;
   std::vector<Vec<Dim>> force;  ///< on the upper surface in the next step, N
   std::vector<double> stored;   ///< J/m2
-  std::vector<double> area;     ///< m2; 0 where the law does not act
   std::vector<bool> between;    ///< there is material on both sides in this step
 };
 

@@ -14,8 +14,21 @@ std::vector<Vec<2>> segment_normals(const std::vector<Vec<2>>& vertices) {
   return normals;
 }
 
-SeenCrack as_drawn(const Crack<2>& crack) {
-  return {crack.plane, segment_normals(crack.plane), segment_normals(crack.original), crack.closed};
+/// The vertices with what lies beyond them at ends that are no tips, straight on.
+std::vector<Vec<2>> extended(const std::vector<Vec<2>>& vertices, const std::array<double, 2>& extension) {
+  std::vector<Vec<2>> out;
+  const std::size_t last = vertices.size() - 1;
+  const auto beyond = [](const Vec<2>& end, const Vec<2>& before, double length) { return end + normalized(end - before) * length; };
+  if (extension[0] > 0) out.push_back(beyond(vertices[0], vertices[1], extension[0]));
+  out.insert(out.end(), vertices.begin(), vertices.end());
+  if (extension[1] > 0) out.push_back(beyond(vertices[last], vertices[last - 1], extension[1]));
+  return out;
+}
+
+SeenCrack with_extensions(const Crack<2>& crack) {
+  std::vector<Vec<2>> plane = extended(crack.plane, crack.extension);
+  std::vector<Vec<2>> normals = segment_normals(plane);
+  return {std::move(plane), std::move(normals), segment_normals(extended(crack.original, crack.extension)), crack.closed};
 }
 
 /// A plane with what counts as lying on it.
@@ -121,7 +134,7 @@ void view_cracks(State<2>& state, const Model<2>& model, int reach) {
   const std::size_t count = state.cracks.size();
   view.cracks = count;
   view.seen.assign(count * (1 + model.symmetries.size()), {});
-  for (std::size_t c = 0; c < count; ++c) view.seen[c] = as_drawn(state.cracks.list[c]);
+  for (std::size_t c = 0; c < count; ++c) view.seen[c] = with_extensions(state.cracks.list[c]);
   for (std::size_t plane = 0; plane < model.symmetries.size(); ++plane) {
     const double cell = model.grid.cell[static_cast<std::size_t>(model.symmetries[plane].axis)];
     const Mirror mirror{model.symmetries[plane], 1e-8 * cell};
