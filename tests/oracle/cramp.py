@@ -5,6 +5,7 @@ Mass, fields, normals, volumes and shape functions belong to the positions at th
 SI throughout. A case is a dictionary; see cases.py.
 """
 import math
+from types import SimpleNamespace
 
 import contact as ct
 from crack_motion import choose_carriers, extend, move_cracks
@@ -63,9 +64,9 @@ class Model:
             self.p_int = {key: list(p) for key, p in self.p.items()}
             self.impose_velocity(self.t, task=2)
         if self.update == "usf":
-            self.update_stress(dt)
+            self.update_stress(dt, end=False)
         elif self.update == "usavg":
-            self.update_stress(dt / 2)
+            self.update_stress(dt / 2, end=False)
         self.project_forces()                                  # Task 3
         self.impose_forces()
         for key, p in self.p.items():                          # Task 4, N03 Eq. 29
@@ -117,15 +118,73 @@ class Model:
                 planes.append(s)
         return node, signs, planes
 
+    def fold_at_held_faces(self, point, node, R, planes):
+        """Wide functions see nodes beyond a face of prescribed velocity: v_beyond = 2 V - v_mirror for what the face's node holds.
+
+        The face is the row of nodes between, when it holds the component across; beside its last node it goes on for points that are before
+        the row itself (a row seen edge-on is no face). Between two held nodes there is nothing to fold. Returns the mirror node, signs, mirrors, and what to add to the
+        velocities at the start and the end of the step.
+        """
+        offset = [[0.0, 0.0], [0.0, 0.0]]
+        if self.shape == "linear":
+            return node, R, planes, offset
+        R, planes = list(R), list(planes)
+
+        def neighbour(n, axis, by):
+            return (n[0] + by, n[1]) if axis == 0 else (n[0], n[1] + by)
+
+        for axis in range(2):
+            if axis in {s.axis for s in planes}:
+                continue
+            up = 1 if point[axis] > self.grid.position(node)[axis] else -1
+            face = neighbour(node, axis, up)
+            at = self.grid.position(face)[axis]
+            if up * (point[axis] - at) < 0 or (up < 0 and point[axis] == at):
+                continue
+            mirror = neighbour(face, axis, up)
+            if axis in self.held_velocities(node) and axis in self.held_velocities(mirror):
+                continue
+            velocities = self.held_velocities(face)
+            if axis not in velocities:
+                along = 1 - axis
+                to = 1 if point[along] > self.grid.position(face)[along] else -1
+                last = neighbour(face, along, to)
+                velocities = self.held_velocities(last)
+                if axis not in velocities or axis not in self.held_velocities(neighbour(last, along, to)) or to * (point[along] - self.grid.position(last)[along]) < 0:
+                    continue
+            node = mirror
+            planes.append(SimpleNamespace(axis=axis, at=at))
+            for k, values in velocities.items():
+                for when in range(2):
+                    offset[when][k] += 2 * R[k] * values[when]
+                R[k] = -R[k]
+        return node, R, planes, offset
+
+    def held_velocities(self, node):
+        """Per prescribed component the velocity at the start and the end of the step; none in the first step, when the body still moves."""
+        if node not in self.held_faces:
+            x, found = self.grid.position(node), {}
+            for k, (value, earlier) in self.prescribed(node).items():
+                if earlier is None and self.fixed_force == "incremental":
+                    continue
+                found[k] = ((earlier or value)(self.t, *x), value(self.t + self.dt, *x))
+            self.held_faces[node] = found
+        return self.held_faces[node]
+
     def assign_fields(self):
         """v(p, i) of N03 Eq. 2 as the set of cracks crossed; crack normals at nodes over crossed pairs (CONVENTIONS 9)."""
         normal, original, side_sum = {}, {}, {}
+        self.held_faces = {}
         for p in self.particles:
             p.pairs = []
             for node, S, G in shape_2d(self.shape, p.x[0], p.x[1], self.grid, self.half_size):
-                signature, found = self.crossings(p.x, self.grid.position(node))
                 target, R, planes = self.fold(p.x, node)
-                p.pairs.append(((target, signature), S, G, R, planes))
+                folded = self.fold_at_held_faces(p.x, target, R, planes)
+                # the image of a crack is known behind a symmetry plane only: else the line goes to the mirror node
+                end = node if folded[0] == target else folded[0]
+                signature, found = self.crossings(p.x, self.grid.position(end))
+                target, flips, mirrors, offset = folded
+                p.pairs.append(((target, signature), S, G, flips, mirrors, offset))
                 for crack, side, segments in found:
                     key = (target, crack.index)
                     n, N = normal.setdefault(key, [0.0, 0.0]), original.setdefault(key, [0.0, 0.0])
@@ -152,7 +211,7 @@ class Model:
         self.x_sum, self.X_sum = {}, {}
         for p in self.particles:
             area = p.area()
-            for key, S, G, R, planes in p.pairs:
+            for key, S, G, R, planes, offset in p.pairs:
                 m = p.mass * S
                 self.m[key] = self.m.get(key, 0.0) + m
                 momentum = self.p.setdefault(key, [0.0, 0.0])
@@ -161,7 +220,7 @@ class Model:
                 for s in planes:
                     x[s.axis], X[s.axis] = 2 * s.at - x[s.axis], 2 * s.at - X[s.axis]
                 for k in range(2):
-                    momentum[k] += R[k] * m * p.v[k]
+                    momentum[k] += R[k] * m * (p.v[k] - offset[0][k])
                     now[k] += m * x[k]
                     then[k] += m * X[k]
                 self.volume[key[0]] = self.volume.get(key[0], 0.0) + area * S
@@ -182,24 +241,29 @@ class Model:
         prescribed in the step before.
         """
         self.held, self.fixed, self.fresh, self.old = {}, {}, set(), {}
-        slack = 1e-9 * self.grid.h
-        now, before = self.conditions(self.t), self.conditions((self.k - 1) * self.dt) if self.k else []
         for node in {key[0] for key in self.m}:
             x = self.grid.position(node)
             for s in self.symmetries:
                 if s.holds(x):
                     self.held.setdefault(node, set()).add(s.axis)
-            here, there = ([b for b in conditions if all(b["low"][k] - slack <= x[k] <= b["high"][k] + slack for k in range(2))]
-                           for conditions in (now, before))
-            for k in range(2):
-                values = [b["value"][k] for b in here if b["value"][k] is not None]
-                if values:
-                    self.fixed.setdefault(node, {})[k] = values[-1]
-                    earlier = [b["value"][k] for b in there if b["value"][k] is not None]
-                    if earlier:
-                        self.old[node, k] = earlier[-1]
-                    else:
-                        self.fresh.add((node, k))
+            for k, (value, earlier) in self.prescribed(node).items():
+                self.fixed.setdefault(node, {})[k] = value
+                if earlier:
+                    self.old[node, k] = earlier
+                else:
+                    self.fresh.add((node, k))
+
+    def prescribed(self, node):
+        """{component: (value, the value that the step before had or None)}. Of several conditions the last stated holds."""
+        slack, x, found = 1e-9 * self.grid.h, self.grid.position(node), {}
+        now, before = self.conditions(self.t), self.conditions((self.k - 1) * self.dt) if self.k else []
+        here, there = ([b for b in conditions if all(b["low"][k] - slack <= x[k] <= b["high"][k] + slack for k in range(2))]
+                       for conditions in (now, before))
+        for k in range(2):
+            values, earlier = ([b["value"][k] for b in boundaries if b["value"][k] is not None] for boundaries in (here, there))
+            if values:
+                found[k] = (values[-1], earlier[-1] if earlier else None)
+        return found
 
     def zero_on_planes(self, field):
         for key, value in field.items():
@@ -328,8 +392,11 @@ class Model:
         for p in self.particles:
             xx, yy, xy = (p.volume * s for s in p.material.force_stress())
             external = [p.mass * b[k] + sum(share * f[k](self.t) for share, f in p.load) for k in range(2)]
-            for key, S, G, R, _ in p.pairs:
+            for key, S, G, R, _, offset in p.pairs:
                 f = self.f[key]
+                for k in range(2):  # on the image behind a face: what follows the face, and damping of its own velocity
+                    rate = (offset[1][k] - offset[0][k]) / self.dt
+                    f[k] -= R[k] * p.mass * S * (rate + kappa * offset[0][k])
                 f[0] += R[0] * (-(xx * G[0] + xy * G[1]) + external[0] * S)
                 f[1] += R[1] * (-(xy * G[0] + yy * G[1]) + external[1] * S)
         for key, f in self.f.items():
@@ -339,32 +406,32 @@ class Model:
     def update_particles(self):
         """N03 Eq. 30: velocities now, positions returned (they advance at the end of the step)."""
         for p in self.particles:
-            for key, S, G, R, _ in p.pairs:
+            for key, S, G, R, _, offset in p.pairs:
                 for k in range(2):
-                    p.v[k] += self.dt * R[k] * S * self.f[key][k] / self.m[key]
+                    p.v[k] += S * (self.dt * R[k] * self.f[key][k] / self.m[key] + offset[1][k] - offset[0][k])
         return self.moved_positions()
 
     def moved_positions(self):
-        """x + dt sum S v with the nodal velocities at hand."""
-        return [[p.x[k] + self.dt * sum(R[k] * S * self.p[key][k] / self.m[key] for key, S, _, R, _ in p.pairs) for k in range(2)]
-                for p in self.particles]
+        """x + dt sum S v with the nodal velocities at hand, which are those of the end of the step."""
+        return [[p.x[k] + self.dt * sum(S * (R[k] * self.p[key][k] / self.m[key] + offset[1][k]) for key, S, _, R, _, offset in p.pairs)
+                 for k in range(2)] for p in self.particles]
 
     def project_new_momentum(self):
         """N03 Eq. 31."""
         self.p = {key: [0.0, 0.0] for key in self.m}
         for p in self.particles:
-            for key, S, G, R, _ in p.pairs:
+            for key, S, G, R, _, offset in p.pairs:
                 for k in range(2):
-                    self.p[key][k] += R[k] * p.mass * p.v[k] * S
+                    self.p[key][k] += R[k] * p.mass * (p.v[k] - offset[1][k]) * S
         self.zero_on_planes(self.p)
 
-    def update_stress(self, dt):
-        """N03 Eqs. 34-36: L = sum v (x) G with the velocities of the fields the particle belongs to."""
+    def update_stress(self, dt, end=True):
+        """N03 Eqs. 34-36: L = sum v (x) G with the velocities of the fields the particle belongs to, those of the end of the step or not."""
         for p in self.particles:
             L = [[0.0, 0.0], [0.0, 0.0]]
-            for key, S, G, R, _ in p.pairs:
+            for key, S, G, R, _, offset in p.pairs:
                 for i in range(2):
-                    v = R[i] * self.p[key][i] / self.m[key]
+                    v = R[i] * self.p[key][i] / self.m[key] + offset[1 if end else 0][i]
                     for j in range(2):
                         L[i][j] += v * G[j]
             p.material.update(L, dt)

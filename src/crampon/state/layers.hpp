@@ -75,11 +75,13 @@ struct Layer {
   auto operator<=>(const Layer& b) const = default;
 };
 
-/// Where the pair (particle, node) of a particle near a crack or a symmetry plane goes.
+/// Where the pair (particle, node) of a particle near a crack, a symmetry plane or a held face goes.
 struct PairTarget {
-  std::uint16_t node;  ///< tile index; the mirror node when the pair is folded at a symmetry plane
-  std::uint8_t layer;  ///< of the block
-  std::uint8_t flip;   ///< bit k: component k changes sign in the exchange (folded pairs, CONVENTIONS 29)
+  std::uint16_t node = 0;     ///< tile index; the mirror node when the pair is folded
+  std::uint8_t layer = 0;     ///< of the block
+  std::uint8_t flip = 0;      ///< bit k: component k changes sign in the exchange (CONVENTIONS 29)
+  std::uint8_t mirrored = 0;  ///< bit k: the mirror node is on the other side of a plane across axis k
+  std::uint16_t offset = 0;   ///< index into the block's offsets: what is read at the mirror node, its signs changed, plus this
 };
 
 }  // namespace crampon

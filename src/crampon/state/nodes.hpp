@@ -53,6 +53,20 @@ struct CrossingSums {
   Pack r[2];
 };
 
+/// Offsets of velocities in folded pairs: twice what the face between has (step/folded_pairs.hpp; 0 at symmetry planes). Entry 0 is zero.
+template <int Dim>
+struct PairOffsets {
+  std::vector<Pack> start = {splat(0.)}, end = {splat(0.)};       ///< m/s, at the start and the end of the step
+  std::vector<MotionRecord<Dim>> motion = {MotionRecord<Dim>{}};  ///< as {v', a} has it
+
+  bool any() const { return start.size() > 1; }
+  void clear() {
+    start.resize(1);
+    end.resize(1);
+    motion.resize(1);
+  }
+};
+
 /// The layers of one block, as a tile sees them and as the block's own nodes see them.
 template <int Dim>
 struct BlockLayers {
@@ -62,8 +76,9 @@ struct BlockLayers {
   std::vector<Layer> node{Layer{}};               ///< layers present at the block's own nodes, ascending
   std::vector<CrackId> tile_cracks, node_cracks;  ///< cracks crossed by pairs of the tile / at own nodes
   std::vector<PairTarget> targets;                ///< [special pack][lane][stencil node]
-  std::vector<std::int32_t> special;              ///< per pack of the block: index of its targets, or -1; empty: none special
-  std::uint32_t tile_begin = 0, node_begin = 0;   ///< first tile / nodal slot
+  PairOffsets<Dim> offsets;
+  std::vector<std::int32_t> special;             ///< per pack of the block: index of its targets, or -1; empty: none special
+  std::uint32_t tile_begin = 0, node_begin = 0;  ///< first tile / nodal slot
   std::uint32_t crossing_tile_begin = 0, crossing_node_begin = 0;
   std::vector<std::uint8_t> shared;          ///< per own node: holds several fields or is near a wall; empty: none
   std::vector<std::uint32_t> contact_packs;  ///< of the block's particles: with a part in shared nodes, ascending

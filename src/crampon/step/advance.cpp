@@ -12,13 +12,13 @@
 #include "crampon/step/guard.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/ledger.hpp"
+#include "crampon/step/mirrored_forces.hpp"
 #include "crampon/step/move_cracks.hpp"
 #include "crampon/step/nodes_phase.hpp"
 #include "crampon/step/project.hpp"
 #include "crampon/step/project_loads.hpp"
 #include "crampon/step/reorder.hpp"
 #include "crampon/step/rigid_motion.hpp"
-#include "crampon/step/symmetry_reactions.hpp"
 #include "crampon/step/update_particles.hpp"
 
 namespace crampon {
@@ -79,7 +79,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     start_rigid_motion(state, model, dt);
     evaluate_loads(state, model, load_values, body_force, damping);
     check_prescribed(state, model, load_values, body_force, damping);
-    assign_velocity_fields<Dim, Shape>(state, model);  // Task 0
+    assign_velocity_fields<Dim, Shape>(state, model, dt);  // Task 0
     choose_carriers(state, model);
     record_initial_volume<Dim, Shape>(state, model);
   });
@@ -94,13 +94,13 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   }
   phases.blocks("contact and boundaries", [&](B b) { settle_start_momenta<Dim, Shape>(state, model, b, dt); });  // Task 2
   phases.blocks("stress and forces", [&](B b) {                                                                  // Tasks 2, 3
-    update_stress_and_project_forces<Dim, Shape>(state, model, b, dt, stress_first ? stress_dt : 0., load_values, body_force);
+    update_stress_and_project_forces<Dim, Shape>(state, model, b, dt, stress_first ? stress_dt : 0., load_values, body_force, damping);
   });
   if (model.any_tractions()) phases.serial("crack tractions", [&] { spread_tractions<Dim, Shape>(state, model); });
   phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });  // Tasks 3, 4
   phases.blocks("account loads", [&](B b) {
-    account_loads<Dim, Shape>(state, model, b, dt, body_force);
-    account_symmetry<Dim, Shape>(state, model, b, dt, load_values, body_force, damping);
+    account_loads<Dim, Shape>(state, model, b, dt);
+    account_mirrored_forces<Dim, Shape>(state, model, b, dt, load_values, body_force, damping);
   });
   if (model.re_extrapolates()) {
     phases.blocks("update velocities", [&](B b) { update_velocities_and_project<Dim, Shape>(state, model, b, dt); });  // Tasks 5, 6

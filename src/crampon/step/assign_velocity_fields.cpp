@@ -25,8 +25,16 @@ class BlockAssignment {
 
  public:
   BlockAssignment(const State<Dim>& state, const Model<Dim>& model, std::size_t b, BlockLayers<Dim>& layers,
-                  std::vector<CrossingSums>& crossing)
-      : state_(state), model_(model), view_(state.crack_view), block_(state.blocks.list[b]), layers_(layers), crossing_(crossing) {}
+                  std::vector<CrossingSums>& crossing, double dt)
+      : state_(state),
+        model_(model),
+        view_(state.crack_view),
+        block_(state.blocks.list[b]),
+        layers_(layers),
+        crossing_(crossing),
+        held_(state, model, b),
+        folder_(model, held_),
+        dt_(dt) {}
 
   bool needed() const {
     if (!block_.has_particles()) return false;
@@ -36,6 +44,7 @@ class BlockAssignment {
       if (view_.bins.any_in_box(low, high)) return true;
     }
     if constexpr (Shape::width == 3) {
+      if (held_.any()) return true;
       for (const SymmetryPlane& plane : model_.symmetries) {
         const double g = (plane.at - model_.grid.origin[plane.axis]) * model_.grid.inverse_cell[plane.axis] - first[plane.axis];
         if (g > -3 && g < block_side + 3) return true;
@@ -78,6 +87,7 @@ class BlockAssignment {
       stencil.compute(x, model_.grid, first, model_.materials[run->material].half_size);
       layers_.special[k - first_pack] = count++;
       field_ = model_.materials[run->material].field;
+      rigid_ = model_.is_rigid(field_);
       sees_cracks_ = !model_.is_whole(field_);
       own_layer_ = layers_.run_layer[static_cast<std::size_t>(run - &state_.blocks.runs[block_.first_run])];
       for (int l = 0; l < lanes; ++l) assign(stencil, x, l, state_.particles.is_padding(std::size_t{k} * lanes + l));
@@ -99,6 +109,7 @@ class BlockAssignment {
       if (!view_.bins.empty() && !view_.bins.facets_of_cell(cell[0], cell[1]).empty()) return true;
     }
     if constexpr (Shape::width == 3) {
+      if (held_.any() && held_.near_cell(cell_of(x, l))) return true;
       for (const SymmetryPlane& p : model_.symmetries) {
         if (std::fabs(x[p.axis][l] - p.at) < 1.5 * model_.grid.cell[p.axis]) return true;
       }
@@ -135,24 +146,49 @@ class BlockAssignment {
     }
   }
 
-  /// CONVENTIONS 29: a pair whose node lies beyond a symmetry plane goes to the mirror node. Returns the plane, through which the line to
-  /// the node beyond goes and meets the images of cracks there, or -1. Of images in several planes none are known: the line to them goes to
-  /// the mirror node.
-  int fold(const Vec<Dim>& x_p, IndexVector<Dim> node, Vec<Dim>& x_i, PairTarget& target) const {
-    const IndexVector<Dim> beyond = node;
-    Vec<Dim> x_mirror = x_i;
-    int planes = 0;
-    const SymmetryPlane* through = nullptr;
-    target.flip = static_cast<std::uint8_t>(for_folds<Dim>(model_, x_p, node, x_mirror, [&](const SymmetryPlane& plane) {
-      ++planes;
-      through = &plane;
-    }));
+  /// The pair goes to the mirror node where it is folded. Returns the symmetry plane, through which the line to the node beyond goes and meets
+  /// the images of cracks there, or -1: of images in several planes, or in held faces, none are known, and the line goes to the mirror node.
+  int fold(const Vec<Dim>& x_p, const IndexVector<Dim>& node, Vec<Dim>& x_i, PairTarget& target) {
+    const FoldedPair<Dim> pair = folder_.fold(x_p, node, !rigid_);
+    if (!pair.folded()) return -1;
     for (int k = 0; k < Dim; ++k) {
-      target.node = static_cast<std::uint16_t>(target.node + (node[k] - beyond[k]) * power(T::side, k));
+      target.node = static_cast<std::uint16_t>(target.node + (pair.node[k] - node[k]) * power(T::side, k));
     }
-    if (planes == 1) return static_cast<int>(through - model_.symmetries.data());
-    x_i = x_mirror;
+    target.flip = static_cast<std::uint8_t>(pair.flip);
+    target.mirrored = static_cast<std::uint8_t>(pair.mirrored);
+    target.offset = offset_number(pair);
+    if (pair.mirror) return static_cast<int>(pair.mirror - model_.symmetries.data());
+    x_i = pair.x_i;
     return -1;
+  }
+
+  /// Faces mostly move as one: of the offsets known so far the last ones are looked through.
+  std::uint16_t offset_number(const FoldedPair<Dim>& pair) {
+    PairOffsets<Dim>& offsets = layers_.offsets;
+    Pack start = splat(0.), end = splat(0.);
+    for (int k = 0; k < Dim; ++k) start[k] = pair.offset_start[k], end[k] = pair.offset_end[k];
+    const auto same = [](Pack a, Pack b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; };
+    const std::size_t count = offsets.start.size();
+    if (same(start, splat(0.)) && same(end, splat(0.))) return 0;
+    for (std::size_t i = count; i-- > 1 && i + 32 > count;) {
+      if (same(offsets.start[i], start) && same(offsets.end[i], end)) return static_cast<std::uint16_t>(i);
+    }
+    if (count == std::size_t{1} << 16) {
+      fits_ = false;
+      return 0;
+    }
+    const Pack rate = (end - start) * splat(1 / dt_);
+    MotionRecord<Dim> motion;
+    if constexpr (Dim == 2) {
+      motion.r[0] = Pack{end[0], end[1], rate[0], rate[1]};
+    } else {
+      motion.r[0] = end;
+      motion.r[1] = rate;
+    }
+    offsets.start.push_back(start);
+    offsets.end.push_back(end);
+    offsets.motion.push_back(motion);
+    return static_cast<std::uint16_t>(count);
   }
 
   void cross(const StencilFactors<Dim, Shape>& stencil, const Pack* x, int l, const Vec<2>& x_p, const std::array<Vec<2>, T::stencil>& x_i,
@@ -172,13 +208,13 @@ class BlockAssignment {
         const CrackId crack = mirror[n] < 0 ? c : seen_in_mirror(view_, c, static_cast<std::size_t>(mirror[n]));
         fits_ = signature[n].insert(crack) && fits_;
         // Padding follows the particle it sits on, but is not a pair of its own.
-        if (!padding) add_crossing(crack, target[n].node, crossings[n], mirror[n] < 0 ? 0u : target[n].flip);
+        if (!padding) add_crossing(crack, target[n].node, crossings[n], mirror[n] < 0 ? 0u : target[n].mirrored);
       }
     }
   }
 
-  /// \param flip  components of the normals that the node in the mirror sees turned round
-  void add_crossing(CrackId c, int node, const Crossing& crossing, unsigned flip) {
+  /// \param mirrored  components of the normals that the node in the mirror sees turned round
+  void add_crossing(CrackId c, int node, const Crossing& crossing, unsigned mirrored) {
     std::vector<CrackId>& cracks = layers_.tile_cracks;
     const auto at = static_cast<std::size_t>(std::find(cracks.begin(), cracks.end(), c) - cracks.begin());
     if (at == cracks.size()) {
@@ -186,8 +222,8 @@ class BlockAssignment {
       crossing_.resize(cracks.size() * T::nodes, CrossingSums{});
     }
     CrossingSums& sum = crossing_[at * T::nodes + static_cast<std::size_t>(node)];
-    sum.r[0] += flipped(Pack{crossing.normal_sum[0], crossing.normal_sum[1], double(crossing.side()), 1.}, flip);
-    sum.r[1] += flipped(Pack{crossing.original_sum[0], crossing.original_sum[1], 0., 0.}, flip);
+    sum.r[0] += flipped(Pack{crossing.normal_sum[0], crossing.normal_sum[1], double(crossing.side()), 1.}, mirrored);
+    sum.r[1] += flipped(Pack{crossing.original_sum[0], crossing.original_sum[1], 0., 0.}, mirrored);
   }
 
   int layer_number(const Layer& layer) {
@@ -245,9 +281,13 @@ class BlockAssignment {
   const Block<Dim>& block_;
   BlockLayers<Dim>& layers_;
   std::vector<CrossingSums>& crossing_;  ///< [crack of the tile][tile node]
-  std::uint16_t field_ = 0;              ///< of the particles at hand
-  bool sees_cracks_ = true;              ///< ... else it is one, whatever cracks part the material beside it
-  std::uint8_t own_layer_ = 0;           ///< ... and the layer of their pairs that cross nothing
+  HeldNodes<Dim, Shape> held_;
+  PairFolder<Dim, Shape> folder_;
+  double dt_;                ///< s
+  std::uint16_t field_ = 0;  ///< of the particles at hand
+  bool rigid_ = false;
+  bool sees_cracks_ = true;     ///< ... else it is one, whatever cracks part the material beside it
+  std::uint8_t own_layer_ = 0;  ///< ... and the layer of their pairs that cross nothing
   bool fits_ = true;
 };
 
@@ -308,6 +348,7 @@ void reset_layers(BlockLayers<Dim>& layers) {
   layers.tile_cracks.clear();
   layers.targets.clear();
   layers.special.clear();
+  layers.offsets.clear();
 }
 
 template <int Dim, class Shape>
@@ -354,17 +395,18 @@ void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::
 }  // namespace
 
 template <int Dim, class Shape>
-void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model) {
+void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model, double dt) {
   if constexpr (Dim == 2) {
     if (!state.cracks.empty()) view_cracks(state, model, Shape::width == 3 ? 1 : 0);
   }
   std::vector<std::vector<CrossingSums>> crossing(state.blocks.size());
   std::atomic<bool> fits{true};
-  if (!state.cracks.empty() || !model.symmetries.empty() || model.fields.size() > 1) {
+  const bool may_fold = Shape::width == 3 && !model.conditions.empty();
+  if (!state.cracks.empty() || may_fold || model.fields.size() > 1) {
     parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) {
       BlockLayers<Dim>& layers = state.nodes.layers[b];
       reset_layers(layers);
-      BlockAssignment<Dim, Shape> assignment(state, model, b, layers, crossing[b]);
+      BlockAssignment<Dim, Shape> assignment(state, model, b, layers, crossing[b], dt);
       assignment.begin();
       if (assignment.needed()) assignment.run();
       if (!assignment.finish()) fits = false;
@@ -378,7 +420,7 @@ void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model) {
   lay_out<Dim, Shape>(state, model, crossing);
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void assign_velocity_fields<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void assign_velocity_fields<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -58,7 +58,7 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
               }
               for (int k = 0; k < Dim; ++k) {
                 const double x_i = model.grid.node_coordinate(k, node[k]);
-                if (t.flip >> k & 1u) {
+                if (t.mirrored >> k & 1u) {
                   // The mirror stands midway between the node and the one beyond it for which the pair was.
                   const int beyond = unflatten<Dim>(stencil.of.lowest(l) + T::steps[n], T::side)[k] + first[k] - T::offset;
                   point.x[k] = model.grid.node_coordinate(k, beyond) - point.x[k];

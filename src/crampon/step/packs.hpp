@@ -119,9 +119,15 @@ inline V flipped(V a, unsigned flip) {
   return a * sign;
 }
 
-/// Adds S_ip * record to every node of a pack's stencils (N03 Eq. 26 when the record is {m v, m}).
+/// What a folded pair puts on the mirror node of {m v, m}: m flip (v - offset).
+template <int Dim>
+inline Pack folded_momentum(Pack record, const PairTarget& t, const Pack* offsets) {
+  return flipped(t.offset == 0 ? record : record - splat(record[Dim]) * offsets[t.offset], t.flip);
+}
+
+/// Adds S_ip * record to every node of a pack's stencils (N03 Eq. 26: the record is {m v, m}); offsets: of the time that v belongs to.
 template <int Dim, class Shape>
-inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, const Pack* record, Pack* tiles) {
+inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, const Pack* offsets, const Pack* record, Pack* tiles) {
   using T = Tile<Dim, Shape>;
   if constexpr (Stencil<Dim, Shape>::separable) {
     if (!targets) {
@@ -136,7 +142,7 @@ inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, con
       for (int n = 0; n < T::stencil; ++n) {
         const PairTarget t = targets[l * T::stencil + n];
         Pack& q = tiles[t.layer * T::nodes + t.node];
-        q = fused(splat(s.weight(n, l)), flipped(record[l], t.flip), q);
+        q = fused(splat(s.weight(n, l)), folded_momentum<Dim>(record[l], t, offsets), q);
       }
     }
   } else if (s.of.same_base) {
@@ -155,24 +161,25 @@ inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, con
   }
 }
 
-/// f(node value, S_ip or G_ip index n) over the stencil of lane l, in the order of n.
+/// f(node value, S_ip or G_ip index n, pair) over the stencil of lane l, in the order of n.
 template <int Dim, class Shape, class Value, class F>
 inline void for_stencil(const Stencil<Dim, Shape>& s, const PairTarget* targets, int l, const Value* tiles, F&& f) {
   using T = Tile<Dim, Shape>;
   if (targets) {
     for (int n = 0; n < T::stencil; ++n) {
       const PairTarget t = targets[l * T::stencil + n];
-      f(tiles[t.layer * T::nodes + t.node], n, t.flip);
+      f(tiles[t.layer * T::nodes + t.node], n, t);
     }
   } else {
     const Value* lowest = tiles + s.of.base[l];
-    for (int n = 0; n < T::stencil; ++n) f(lowest[T::steps[n]], n, 0u);
+    for (int n = 0; n < T::stencil; ++n) f(lowest[T::steps[n]], n, PairTarget{});
   }
 }
 
 /// Velocity gradient of four particles, L[d * Dim + k] = sum_i v_i,d G_ip,k (N03 Eq. 36).
 template <int Dim, class Shape>
-inline void gradient(const Stencil<Dim, Shape>& s, const PairTarget* targets, const NodalVector<Dim>* velocity, Pack* L) {
+inline void gradient(const Stencil<Dim, Shape>& s, const PairTarget* targets, const Pack* offsets, const NodalVector<Dim>* velocity,
+                     Pack* L) {
   using T = Tile<Dim, Shape>;
   if constexpr (Stencil<Dim, Shape>::separable) {
     if (!targets) {
@@ -208,8 +215,8 @@ inline void gradient(const Stencil<Dim, Shape>& s, const PairTarget* targets, co
   for (int l = 0; l < lanes; ++l) {
     NodalVector<Dim> column[Dim];
     for (int k = 0; k < Dim; ++k) column[k] = splat_as<NodalVector<Dim>>(0.);
-    for_stencil<Dim, Shape>(s, targets, l, velocity, [&](NodalVector<Dim> v_i, int n, unsigned flip) {
-      const NodalVector<Dim> v = flipped(v_i, flip);
+    for_stencil<Dim, Shape>(s, targets, l, velocity, [&](NodalVector<Dim> v_i, int n, const PairTarget& t) {
+      const NodalVector<Dim> v = targets ? flipped(v_i, t.flip) + leading<Dim>(offsets[t.offset]) : v_i;
       for (int k = 0; k < Dim; ++k) column[k] = fused(splat_as<NodalVector<Dim>>(s.slope(n, k, l)), v, column[k]);
     });
     for (int d = 0; d < Dim; ++d) {

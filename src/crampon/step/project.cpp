@@ -1,6 +1,7 @@
 #include "crampon/step/project.hpp"
 
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/mirrored_forces.hpp"
 #include "crampon/step/project_loads.hpp"
 #include "crampon/step/stress_pass.hpp"
 #include "crampon/step/tile_buffer.hpp"
@@ -12,12 +13,13 @@ void project_momentum(State<Dim>& state, const Model<Dim>& model, std::size_t b)
   if (!state.blocks.list[b].has_particles()) return;
   Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
   const Particles<Dim>& particles = state.particles;
+  const Pack* offsets = state.nodes.layers[b].offsets.start.data();
   for_packs<Dim, Shape>(state, model, b,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
                           const Pack m_p = particles.mass_volume[2 * std::size_t{pack}];
                           Pack record[lanes];
                           for (int l = 0; l < lanes; ++l) record[l] = particles.momentum_record(std::size_t{pack} * lanes + l, m_p[l]);
-                          scatter<Dim, Shape>(stencil, targets, record, tiles);
+                          scatter<Dim, Shape>(stencil, targets, offsets, record, tiles);
                         });
 }
 
@@ -26,13 +28,13 @@ namespace {
 /// What one particle adds to the contact sums of a node, before S_ip; the volume's gradient apart.
 template <int Dim>
 void add_contact_share(const Model<Dim>& model, const IndexVector<Dim>& node, double S, const Vec<Dim>& G, double m_p, double V_p,
-                       double c_p, const Vec<Dim>& x_p, const Vec<Dim>& X_p, unsigned flip, ContactSums<Dim>& q) {
+                       double c_p, const Vec<Dim>& x_p, const Vec<Dim>& X_p, unsigned mirrored_axes, ContactSums<Dim>& q) {
   Pack now = splat(0.), start = splat(0.);
   now[0] = V_p;
   Vec<Dim> g = G * V_p;
   for (int k = 0; k < Dim; ++k) {
     const double x_i = model.grid.node_coordinate(k, node[k]);
-    const bool mirrored = flip >> k & 1u;
+    const bool mirrored = mirrored_axes >> k & 1u;
     const double sign = mirrored ? -m_p : m_p;
     now[1 + k] = sign * (x_p[k] - x_i);
     start[1 + k] = sign * (X_p[k] - x_i);
@@ -140,7 +142,7 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
               G[k] = stencil.slope(n, k, l);
             }
             add_contact_share<Dim>(model, node, stencil.weight(n, l), G, m_p, volume[l], histories ? particles.contact[p] : 0., x_p, X_p,
-                                   t.flip, tiles[t.layer * T::nodes + t.node]);
+                                   t.mirrored, tiles[t.layer * T::nodes + t.node]);
           }
         }
       });
@@ -172,32 +174,11 @@ void project_rigid_motion(const State<Dim>& state, const Model<Dim>& model, std:
                         });
 }
 
-/// Nodes add body force to all their mass; what folded pairs brought them is a mirror image, on which it acts mirrored (CONVENTIONS 29).
-template <int Dim, class Shape>
-void mirror_body_force(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const Vec<Dim>& body_force,
-                       NodalVector<Dim>* tiles) {
-  using T = Tile<Dim, Shape>;
-  for_packs<Dim, Shape>(state, model, b,
-                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
-                          if (!targets || model.is_rigid(model.materials[run.material].field)) return;
-                          for (int l = 0; l < lanes; ++l) {
-                            const double m_p = state.particles.mass(std::size_t{pack} * lanes + l);
-                            for (int n = 0; n < T::stencil; ++n) {
-                              const PairTarget t = targets[l * T::stencil + n];
-                              for (int k = 0; k < Dim; ++k) {
-                                if (t.flip >> k & 1u)
-                                  tiles[t.layer * T::nodes + t.node][k] -= 2 * stencil.weight(n, l) * m_p * body_force[k];
-                              }
-                            }
-                          }
-                        });
-}
-
 }  // namespace
 
 template <int Dim, class Shape>
 void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, double stress_dt,
-                                      const std::vector<Vec<Dim>>& load_values, const Vec<Dim>& body_force) {
+                                      const std::vector<Vec<Dim>>& load_values, const Vec<Dim>& body_force, double damping) {
   if (!state.blocks.list[b].has_particles()) return;
   NodalVector<Dim>* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_force);
   const Particles<Dim>& particles = state.particles;
@@ -206,7 +187,8 @@ void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model
                               &particles.stress[std::size_t{pack} * stress_size<Dim>], tiles);
   };
   if (stress_dt > 0) {
-    update_stress<Dim, Shape>(state, model, b, stress_dt, gathered<Dim, Shape>(state, b, state.nodes.velocity), project);
+    update_stress<Dim, Shape>(state, model, b, stress_dt, gathered<Dim, Shape>(state, b, state.nodes.velocity),
+                              state.nodes.layers[b].offsets.start, project);
   } else {
     for_packs<Dim, Shape>(state, model, b,
                           [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
@@ -215,14 +197,14 @@ void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model
   }
   if (!model.rigid_bodies.empty()) project_rigid_motion<Dim, Shape>(state, model, b, dt, tiles);
   project_loads<Dim, Shape>(state, model, b, load_values, tiles);
-  if (model.any_body_force() && !model.symmetries.empty()) mirror_body_force<Dim, Shape>(state, model, b, body_force, tiles);
+  project_mirrored_forces<Dim, Shape>(state, model, b, body_force, damping, tiles);
 }
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                   \
   template void project_momentum<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                                \
   template void project_contact_sums<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                            \
   template void update_stress_and_project_forces<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, \
-                                                             const std::vector<Vec<DIM>>&, const Vec<DIM>&);
+                                                             const std::vector<Vec<DIM>>&, const Vec<DIM>&, double);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -13,10 +13,10 @@ template <int Dim, class Shape>
 void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_t block);
 
 /// Stress update over `stress_dt` with the nodal velocities at hand (0: none; N03 Eqs. 34-36), then Task 3: tile sums of internal
-/// forces, of loads and of what keeps rigid bodies on their way. load_values: per load and component, N or Pa. body_force, m/s2: only its
-/// mirrored part at symmetry planes is projected; nodes add the rest.
+/// forces, of loads and of what keeps rigid bodies on their way. load_values: per load and component, N or Pa. Of body force, m/s2,
+/// and damping, 1/s, only what is special to folded pairs; nodes add the rest.
 template <int Dim, class Shape>
 void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt, double stress_dt,
-                                      const std::vector<Vec<Dim>>& load_values, const Vec<Dim>& body_force);
+                                      const std::vector<Vec<Dim>>& load_values, const Vec<Dim>& body_force, double damping);
 
 }  // namespace crampon

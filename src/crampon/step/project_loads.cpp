@@ -48,26 +48,6 @@ bool bears_loads(const BlockScratch<Dim>& scratch) {
   return !scratch.loaded.empty() || !scratch.faces.empty();
 }
 
-/// Nodes booked the work of body force on mirrored mass as if it were no image.
-template <int Dim, class Shape>
-void correct_body_work(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const Vec<Dim>& body_force,
-                       const MotionRecord<Dim>* motion) {
-  for_packs<Dim, Shape>(
-      state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
-        if (model.is_rigid(model.materials[run.material].field)) return;
-        for (int l = 0; l < lanes && targets; ++l) {
-          const double m_p = state.particles.mass(std::size_t{pack} * lanes + l);
-          for_stencil<Dim, Shape>(stencil, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {
-            for (int k = 0; k < Dim; ++k) {
-              const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
-              if (flip >> k & 1u)
-                state.scratch[b].ledger.body_work -= 2 * stencil.weight(n, l) * m_p * body_force[k] * (v - 0.5 * a * dt) * dt;
-            }
-          });
-        }
-      });
-}
-
 }  // namespace
 
 template <int Dim, class Shape>
@@ -83,23 +63,18 @@ void project_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, co
 }
 
 template <int Dim, class Shape>
-void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const Vec<Dim>& body_force) {
-  const bool mirrors = model.any_body_force() && !model.symmetries.empty() && state.blocks.list[b].has_particles();
-  const bool loads = bears_loads(state.scratch[b]);
-  if (!loads && !mirrors) return;
+void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  if (!bears_loads(state.scratch[b])) return;
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
-  if (loads) {
-    const double share = model.re_extrapolates() ? 0.5 : 1.;  // account_loads_anew adds the other half
-    double power = 0;
-    for_touched<Dim, Shape>(state, b, [&](std::size_t i) {
-      for (int k = 0; k < Dim; ++k) {
-        const double v_end = motion[i].r[0][k], a = Dim == 2 ? motion[i].r[0][2 + k] : motion[i].r[motion_packs<Dim> - 1][k];
-        power += state.scratch[b].loads[i][k] * (share * v_end - 0.5 * a * dt);
-      }
-    });
-    state.scratch[b].ledger.load_work += power * dt;
-  }
-  if (mirrors) correct_body_work<Dim, Shape>(state, model, b, dt, body_force, motion);
+  const double share = model.re_extrapolates() ? 0.5 : 1.;  // account_loads_anew adds the other half
+  double power = 0;
+  for_touched<Dim, Shape>(state, b, [&](std::size_t i) {
+    for (int k = 0; k < Dim; ++k) {
+      const double v_end = motion[i].r[0][k], a = Dim == 2 ? motion[i].r[0][2 + k] : motion[i].r[motion_packs<Dim> - 1][k];
+      power += state.scratch[b].loads[i][k] * (share * v_end - 0.5 * a * dt);
+    }
+  });
+  state.scratch[b].ledger.load_work += power * dt;
 }
 
 template <int Dim, class Shape>
@@ -115,7 +90,7 @@ void account_loads_anew(State<Dim>& state, std::size_t b, double dt) {
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                                  \
   template void project_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, const std::vector<Vec<DIM>>&, NodalVector<DIM>*); \
-  template void account_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const Vec<DIM>&);                         \
+  template void account_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);                                          \
   template void account_loads_anew<DIM, SHAPE>(State<DIM>&, std::size_t, double);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE

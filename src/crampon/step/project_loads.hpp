@@ -9,10 +9,9 @@ template <int Dim, class Shape>
 void project_loads(State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<Vec<Dim>>& load_values,
                    NodalVector<Dim>* tiles);
 
-/// Work of loads over the step to the block's ledger, and what body force on mirror images takes from what the nodes booked: f_i . (v_i + v'_i)/2 dt;
-/// where velocities are extrapolated anew, f_i . v_i/2 dt, and account_loads_anew adds the other half.
+/// Work of loads over the step to the block's ledger, f_i . (v_i + v'_i)/2 dt; where velocities are extrapolated anew, f_i . v_i/2 dt, and account_loads_anew adds the other half.
 template <int Dim, class Shape>
-void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt, const Vec<Dim>& body_force);
+void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt);
 
 /// After Task 6: half of the work with the velocities that were extrapolated anew. The sum is what particles gain (docs/theory/loads.md).
 template <int Dim, class Shape>

@@ -4,9 +4,10 @@
 namespace crampon {
 
 /// Calls the material law on batches of a few packs of one run: gradients are found while walking, the law sees a batch at once,
-/// and `then(pack, stencil, targets)` follows for every pack of it with the new stress.
+/// and `then(pack, stencil, targets)` follows for every pack of it with the new stress. offsets: of folded pairs, for the time of the velocities.
 template <int Dim, class Shape, class Then>
-void update_stress(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const NodalVector<Dim>* velocity, Then&& then) {
+void update_stress(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const NodalVector<Dim>* velocity,
+                   const std::vector<Pack>& offsets, Then&& then) {
   constexpr int batch_size = Dim == 2 ? 8 : 2;
   alignas(64) Pack L[batch_size * Dim * Dim];
   bool healthy = true;
@@ -14,7 +15,8 @@ void update_stress(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
   for_batches<batch_size, Dim, Shape>(
       state, model, b, [&](const auto& stencils, const Run& run, std::uint32_t first, std::uint32_t end, const auto* factors) {
         for (std::uint32_t k = first; k < end; ++k) {
-          gradient<Dim, Shape>(Stencil<Dim, Shape>(factors[k - first]), stencils.targets(k), velocity, L + (k - first) * Dim * Dim);
+          gradient<Dim, Shape>(Stencil<Dim, Shape>(factors[k - first]), stencils.targets(k), offsets.data(), velocity,
+                               L + (k - first) * Dim * Dim);
         }
         const StressBatch<Dim> batch{static_cast<int>(end - first),
                                      dt,

@@ -12,7 +12,8 @@ namespace {
 
 /// {v', a} at a particle: sum S_ip {v'_i, a_i}.
 template <int Dim, class Shape>
-inline MotionRecord<Dim> interpolate(const Stencil<Dim, Shape>& s, const PairTarget* targets, int l, const MotionRecord<Dim>* motion) {
+inline MotionRecord<Dim> interpolate(const Stencil<Dim, Shape>& s, const PairTarget* targets, int l, const MotionRecord<Dim>* motion,
+                                     const std::vector<MotionRecord<Dim>>& offsets) {
   MotionRecord<Dim> sum;
   if constexpr (Stencil<Dim, Shape>::separable) {
     if (!targets) {
@@ -23,13 +24,12 @@ inline MotionRecord<Dim> interpolate(const Stencil<Dim, Shape>& s, const PairTar
     }
   }
   for (Pack& r : sum.r) r = splat(0.);
-  for_stencil<Dim, Shape>(s, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, unsigned flip) {
+  for_stencil<Dim, Shape>(s, targets, l, motion, [&](const MotionRecord<Dim>& m, int n, const PairTarget& t) {
+    const unsigned flip = Dim == 2 ? t.flip | unsigned{t.flip} << 2 : t.flip;
     const Pack S = splat(s.weight(n, l));
-    if constexpr (Dim == 2) {
-      sum.r[0] = fused(S, flipped(m.r[0], flip | flip << 2), sum.r[0]);
-    } else {
-      sum.r[0] = fused(S, flipped(m.r[0], flip), sum.r[0]);
-      sum.r[1] = fused(S, flipped(m.r[1], flip), sum.r[1]);
+    for (int r = 0; r < motion_packs<Dim>; ++r) {
+      const Pack read = targets ? flipped(m.r[r], flip) + offsets[t.offset].r[r] : m.r[r];
+      sum.r[r] = fused(S, read, sum.r[r]);
     }
   });
   return sum;
@@ -72,16 +72,17 @@ void update_velocities_and_project(State<Dim>& state, const Model<Dim>& model, s
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
   Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
   Particles<Dim>& particles = state.particles;
+  const PairOffsets<Dim>& offsets = state.nodes.layers[b].offsets;
   for_packs<Dim, Shape>(state, model, b,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
                           const Pack m_p = particles.mass_volume[2 * std::size_t{pack}];
                           Pack record[lanes];
                           for (int l = 0; l < lanes; ++l) {
                             const std::size_t p = std::size_t{pack} * lanes + l;
-                            accelerate(particles, p, interpolate<Dim, Shape>(stencil, targets, l, motion), dt);
+                            accelerate(particles, p, interpolate<Dim, Shape>(stencil, targets, l, motion, offsets.motion), dt);
                             record[l] = particles.momentum_record(p, m_p[l]);
                           }
-                          scatter<Dim, Shape>(stencil, targets, record, tiles);
+                          scatter<Dim, Shape>(stencil, targets, offsets.end.data(), record, tiles);
                         });
 }
 
@@ -95,7 +96,7 @@ void remember_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b)
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
                           for (int l = 0; l < lanes; ++l) {
                             double gain = 0, weight = 0;
-                            for_stencil<Dim, Shape>(stencil, targets, l, gains, [&](const ContactSums<Dim>& c, int n, unsigned) {
+                            for_stencil<Dim, Shape>(stencil, targets, l, gains, [&](const ContactSums<Dim>& c, int n, const PairTarget&) {
                               gain += stencil.weight(n, l) * c.r[0][0];
                               weight += stencil.weight(n, l) * c.r[0][1];
                             });
@@ -113,13 +114,14 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
   if (particles.contact.size() > 0 && state.nodes.layers[b].sums_contact) remember_contact<Dim, Shape>(state, model, b);
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
   const Advance<Dim> advance(dt, with_velocities ? dt : 0.);
+  const PairOffsets<Dim>& offsets = state.nodes.layers[b].offsets;
   constexpr int position_pack = 0, width = motion_packs<Dim>;
   Pack low = splat(1e300), high = splat(-1e300), fastest = splat(0.), check = splat(0.);
   const auto move = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
     Pack lowest = low, highest = high, speed = fastest, bad = check;  // in registers
     for (int l = 0; l < lanes; ++l) {
       const std::size_t p = std::size_t{pack} * lanes + l;
-      const MotionRecord<Dim> m = interpolate<Dim, Shape>(stencil, targets, l, motion);
+      const MotionRecord<Dim> m = interpolate<Dim, Shape>(stencil, targets, l, motion, offsets.motion);
       advance.apply(particles, p, m);
       const Pack x = particles.motion[p * width + position_pack];
       lowest = lane_min(lowest, x);
@@ -130,7 +132,7 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
     low = lowest, high = highest, fastest = speed, check = bad;
   };
   if (stress_dt > 0) {
-    update_stress<Dim, Shape>(state, model, b, stress_dt, gathered<Dim, Shape>(state, b, state.nodes.velocity), move);
+    update_stress<Dim, Shape>(state, model, b, stress_dt, gathered<Dim, Shape>(state, b, state.nodes.velocity), offsets.end, move);
   } else {
     for_packs<Dim, Shape>(state, model, b,
                           [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
