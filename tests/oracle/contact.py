@@ -1,12 +1,13 @@
 """Contact across cracks at one node: the papers' literal scheme and the one of contact-consistency.md.
 
 Fields joined by bonded cracks form one group with the common centre-of-mass velocity, as if the bonded cracks were not
-there (DESIGN 4, CONVENTIONS 14, 44). A pair is two groups whose signatures differ by one crack; a is above it, b below,
+there (DESIGN 4, CONVENTIONS 14, 44). A pair is two groups whose signatures differ by one crack, or by several with no group between; a is above it, b below,
 n points from a to b, w = v_b - v_a. The impulse J acts as +J on b and -J on a: equal and opposite.
 """
 import math
 
 OPEN, SLIP, STICK = "open", "slip", "stick"
+STRICTNESS = ["none", "frictionless", "coulomb", "stick", "bonded"]  # ascending
 SWEEPS = 10000  # the fixed point: light fields between heavy ones need some hundreds
 
 
@@ -15,7 +16,7 @@ class Pair:
         self.a, self.b, self.crack = a, b, crack  # signatures of the groups; Crack
         self.n = normal
         self.gap = gap  # at the start of the step, None: not known (volume)
-        self.key = key  # (node, crack, other cracks between the pair and the node)
+        self.key = key  # (node, cracks between the two, other cracks between the pair and the node)
         self.previous = OPEN  # consistent scheme: Task-4 state of the last step
         self.state = OPEN
         # Normal velocity after the pair's own impulse as it was applied ("w_end is taken after J", contact-consistency.md), in

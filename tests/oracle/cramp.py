@@ -272,7 +272,7 @@ class Model:
 
     # ---------------------------------------------------------------- contact
     def find_pairs(self):
-        """Groups of fields joined by bonded cracks, and the pairs of groups that differ by one crack, for every node.
+        """Groups of fields joined by bonded cracks, and the pairs of groups that face each other, for every node.
 
         Done one after another (N13), bonded cracks make pairs like others. Order: by crack, then by what else lies between
         the pair and the node, as the number that N13 gives that field: [0][1], [2][3], then [0][2], [1][3] (CONVENTIONS 13).
@@ -287,22 +287,48 @@ class Model:
             self.groups[node] = groups
             mass = {s: sum(self.m[key] for key in keys) for s, keys in groups.items()}
             pairs = []
-            for crack in self.cracks:
-                c = crack.index
-                if crack.law == "none" or c in self.joined:
-                    continue
-                for near in sorted((s for s in groups if c not in s and s | {c} in groups), key=ct.field_number):
-                    far = near | {c}
-                    above, below = (far, near) if self.side[node, c] > 0 else (near, far)
-                    fraction = mass[above] / (mass[above] + mass[below])
-                    screened = min(fraction, 1 - fraction) < self.contact["mass_screen"] or self.normal[node, c] is None
-                    if crack.law == "bonded" or not screened:
-                        pairs.append(self.make_pair(node, crack, groups, above, below, near))
+            for above, below, between in self.facing(node, groups):
+                fraction = mass[above] / (mass[above] + mass[below])
+                bonded = len(between) == 1 and between[0].law == "bonded"
+                if bonded or min(fraction, 1 - fraction) >= self.contact["mass_screen"]:
+                    pairs.append(self.make_pair(node, between, groups, above, below))
             self.node_pairs[node] = pairs
 
-    def make_pair(self, node, crack, groups, above, below, others):
-        """delta_n = (xbar_b - xbar_a).n - (Xbar_b - Xbar_a).N (contact.md 2.2) and the state of the last step."""
-        n, N = self.normal[node, crack.index], self.original_normal[node, crack.index]
+    def facing(self, node, groups):
+        """(above, below, cracks between that act) for the groups of a node that no other lies between: its signature would differ from both
+        by fewer cracks (CONVENTIONS 50). Above and below the first of these cracks. One after another (N13): one crack alone.
+        """
+        found = []
+        for i, g in enumerate(groups):
+            for h in list(groups)[i + 1:]:
+                apart = g ^ h
+                if len(apart) > 1 and (self.contact["pairs"] != "joint" or any(len(g ^ s) < len(apart) > len(s ^ h) for s in groups)):
+                    continue
+                between = [self.cracks[c] for c in sorted(apart) if self.cracks[c].law != "none" and self.normal.get((node, c)) is not None]
+                if not between:
+                    continue
+                first = between[0].index
+                above, below = (g, h) if (first in g) == (self.side[node, first] > 0) else (h, g)
+                found.append(((min(apart), ct.field_number(g & h), sorted(apart)), above, below, between))
+        return [item[1:] for item in sorted(found, key=lambda item: item[0])]
+
+    def make_pair(self, node, between, groups, above, below):
+        """delta_n = (xbar_b - xbar_a).n - (Xbar_b - Xbar_a).N (contact.md 2.2) and the state of the last step. Of several cracks between the
+        two the strictest law holds, and n is their mean.
+        """
+        crack = max(between, key=lambda c: (ct.STRICTNESS.index(c.law), c.friction if c.law == "coulomb" else 0, -c.index))
+        others, apart = above & below, above ^ below
+
+        def mean_normal(table):
+            if len(between) == 1:
+                return table[node, between[0].index]
+            total = [0.0, 0.0]
+            for c in between:
+                sign = 1 if (c.index in above) == (self.side[node, c.index] > 0) else -1
+                total = [total[k] + sign * table[node, c.index][k] for k in range(2)]
+            return (total[0] / math.hypot(*total), total[1] / math.hypot(*total))
+
+        n, N = mean_normal(self.normal), mean_normal(self.original_normal)
 
         def mean(table, keys):
             m = sum(self.m[key] for key in keys)
@@ -313,10 +339,10 @@ class Model:
             x_a, x_b = mean(self.x_sum, groups[above]), mean(self.x_sum, groups[below])
             X_a, X_b = mean(self.X_sum, groups[above]), mean(self.X_sum, groups[below])
             gap = sum((x_b[k] - x_a[k]) * n[k] - (X_b[k] - X_a[k]) * N[k] for k in range(2))
-        pair = ct.Pair(above, below, crack, n, gap, (node, crack.index, others))
-        flipped = {d for d in range(len(self.cracks)) if d not in self.joined | {crack.index} and (node, d) in self.side and
+        pair = ct.Pair(above, below, crack, n, gap, (node, apart, others))
+        flipped = {d for d in range(len(self.cracks)) if d not in self.joined | apart and (node, d) in self.side and
                    self.crack_side.get((node, d), self.side[node, d]) != self.side[node, d]}
-        pair.previous = self.contact_state.get((node, crack.index, others ^ flipped), ct.OPEN)
+        pair.previous = self.contact_state.get((node, apart, others ^ flipped), ct.OPEN)
         return pair
 
     def adjust_contact(self, task):

@@ -211,35 +211,5 @@ fixed = true
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, OppositeCorners, testing::Values("linear", "gimp", "bspline"));
 
-/// The part of the notes that speaks of cracks on each other.
-std::vector<std::string> notes_about(const std::string& text) {
-  std::vector<std::string> out;
-  for (const std::string& note : make(text)->notes()) {
-    if (note.find("coincide") != std::string::npos) out.push_back(note);
-  }
-  return out;
-}
-
-TEST(NoteOnOverlappingCracks, NamesThemAndTheLength) {
-  Case c;
-  c.degrees = 30;
-  std::string text = problem(c, {Line{.pieces = 7}, Line{.reversed = true, .to = 0.15, .pieces = 3}});
-  text.replace(text.find("[[crack]]"), 9, "[[crack]]\nname = \"a\"");
-  const auto notes = notes_about(text);
-  ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("the cracks \"a\" and \""), std::string::npos) << notes[0];
-  EXPECT_NE(notes[0].find("coincide over 1 m (there is nothing between them, and the stricter of their two contact laws holds)"),
-            std::string::npos)
-      << notes[0];
-}
-
-TEST(NoteOnOverlappingCracks, IsSilentWhereTheyCrossTouchOrRunBesideEachOther) {
-  Case c;
-  const std::string crossing = "[[crack]]\npoints = [[-0.5, -0.5], [0.5, 0.5]]\n";
-  EXPECT_TRUE(notes_about(problem(c, {Line{}}) + crossing).empty());
-  EXPECT_TRUE(notes_about(problem(c, {Line{.to = 0}, Line{.from = 0}})).empty());
-  EXPECT_TRUE(notes_about(problem(c, {Line{}, Line{.offset = 0.01}})).empty());
-}
-
 }  // namespace
 }  // namespace crampon::test
