@@ -71,12 +71,17 @@ Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& p
   const double gap = held ? std::fmin(pair.gap, 0.) : pair.gap;
   const double bound = -std::fmax(gap, 0.) / rules.dt;
   Response<Dim> out;
-  // What Task 2 has stopped is zero but for round-off, which must not decide (MUSL has no forces yet when bodies meet).
+  // What Task 2 has stopped is zero but for round-off, which must not decide (MUSL and USL have no forces yet when bodies meet): neither
+  // whether they touch, nor whether what has stuck slips.
   const double slack = rules.task == ContactTask::four ? 1e-12 * pair.met_at : 0;
   const auto test = [&] {
     if (w_n < bound + slack) {
       out.push(pair.n, m, w_n, bound);
-      out.rub(*pair.law, D_t, sliding_of(rules, pair, m));
+      if (pair.stuck && norm(D_t) < slack * m) {
+        out.stick(D_t);
+      } else {
+        out.rub(*pair.law, D_t, sliding_of(rules, pair, m));
+      }
     } else if (held && glue_holds(rules, pair, m, w_n, D_t)) {
       out.push(pair.n, m, w_n, 0);
       out.stick(D_t);
@@ -91,6 +96,7 @@ Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& p
         if (pair.previous == ContactState::stick) out.stick(D_t);
       }
       if (out.pushes) pair.met_at = std::fmax(pair.met_at, norm(w));
+      pair.stuck = out.sticks;
       break;
     case ContactTask::four:
       test();

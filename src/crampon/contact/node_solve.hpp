@@ -68,9 +68,12 @@ struct ContactPair {
   ContactState previous = ContactState::open;  ///< Task-4 state of the last step
   ContactState state = ContactState::open;     ///< Task-4 state of this step
   double met_at = 0;                           ///< relative speed that Task 2 has stopped, m/s
+  bool stuck = false;                          ///< Task 2 has stopped all slip
   bool by_gap = false;                         ///< a wall: has no volume to go by
   double w_end = 0;                            ///< normal relative velocity right after the impulse of Task 4, m/s
   Vec<Dim> J;                                  ///< impulse on b in the present task, kg m/s
+  Vec<Dim> w_start;                            ///< relative velocity before Task 2: of the particles about the node, m/s
+  Vec<Dim> rubbing;                            ///< impulse of friction on b in Task 4, kg m/s
 
   bool is_virtual() const { return name.field_b == ContactName::all_others; }
 };

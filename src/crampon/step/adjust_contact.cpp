@@ -53,29 +53,30 @@ double energy_taken(ContactGroup<Dim>& group, ContactTask task, const Vec<Dim>& 
   return 0;
 }
 
-/// Work that friction takes in Task 4: the tangential impulse times the mean slip of the step (docs/theory/contact.md, energy).
 template <int Dim>
-double friction_work(const ContactGroup<Dim>* groups, const ContactPair<Dim>& pair) {
-  if (pair.state != ContactState::slip || holds_as_interface(pair)) return 0;
-  const Vec<Dim> J_t = pair.J - pair.n * dot(pair.J, pair.n);
-  if (J_t == Vec<Dim>{}) return 0;
-  const auto settled = [&](GroupSet set) {
-    Vec<Dim> p;
-    double m = 0;
-    for_groups(set, [&](int g) {
-      p += groups[g].v_settled * groups[g].m;
-      m += groups[g].m;
-    });
-    return p * (1 / m);
-  };
-  const Vec<Dim> start = settled(pair.b) - settled(pair.a), end = side_of(groups, pair.b).v - side_of(groups, pair.a).v;
+Vec<Dim> relative_velocity(const ContactGroup<Dim>* groups, const ContactPair<Dim>& pair) {
+  return side_of(groups, pair.b).v - side_of(groups, pair.a).v;
+}
+
+/// What Task 4 has given along the face where it slips.
+template <int Dim>
+Vec<Dim> rubbing(const ContactPair<Dim>& pair) {
+  if (pair.state != ContactState::slip || holds_as_interface(pair)) return {};
+  return pair.J - pair.n * dot(pair.J, pair.n);
+}
+
+/// Work that friction takes in a step: its impulse times the mean slip (docs/theory/contact.md, energy). The slip is that of the particles,
+/// which carry the mass, in the mean about the node: w_start before and `w_end` after they have moved. Nodal velocities of Task 4 grow
+/// without bound where a node holds little mass; what particles take of them does not.
+template <int Dim>
+double friction_work(const ContactPair<Dim>& pair, const Vec<Dim>& w_end) {
   const double share = pair.is_virtual() ? 0.5 : 1;  // there every face is met from both of its sides
-  return share * std::fmax(-0.5 * dot(J_t, start + end), 0.);
+  return share * std::fmax(-0.5 * dot(pair.rubbing, pair.w_start + w_end), 0.);
 }
 
 template <int Dim>
 void settle_pairs(const ContactGroup<Dim>* groups, ContactPair<Dim>* pairs, int pair_count) {
-  for (int q = 0; q < pair_count; ++q) pairs[q].w_settled = side_of(groups, pairs[q].b).v - side_of(groups, pairs[q].a).v;
+  for (int q = 0; q < pair_count; ++q) pairs[q].w_settled = relative_velocity(groups, pairs[q]);
 }
 
 /// After Task 4: what particles are to remember, and what the springs of an interface hold.
@@ -176,8 +177,13 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
     if (pair_count > 0) {
       before.clear();
       for (int g = 0; g < group_count; ++g) before.push_back(groups[g].velocity());
+      double rubbed = 0;
+      for (int q = 0; q < pair_count; ++q) {
+        if (task == ContactTask::two) pairs[q].w_start = relative_velocity(groups, pairs[q]);
+        if (task == ContactTask::six) rubbed += friction_work(pairs[q], relative_velocity(groups, pairs[q]));
+      }
       if (!solve_contact<Dim>(rules, groups, group_count, pairs, pair_count)) ++ledger.unsolved_nodes;
-      double taken = 0, rubbed = 0;
+      double taken = 0;
       for (int g = 0; g < group_count; ++g) {
         const double by_group = energy_taken(groups[g], task, before[static_cast<std::size_t>(g)], model.re_extrapolates());
         taken += by_group;
@@ -186,7 +192,9 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
       }
       if (task == ContactTask::two) settle_pairs(groups, pairs, pair_count);
       for (int q = 0; q < pair_count && task == ContactTask::four; ++q) {
-        rubbed += friction_work(groups, pairs[q]);
+        pairs[q].rubbing = rubbing(pairs[q]);
+        // Without Task 6 the velocity of the particles at the end is not known: that at the start stands for both.
+        if (!re_extrapolates) rubbed += friction_work(pairs[q], pairs[q].w_start);
         close_pair(groups, pairs[q], dt, ledger);
         if (remembers) put_gain(state, b, node, pairs[q]);
       }

@@ -6,6 +6,14 @@
 
 namespace crampon {
 
+namespace {
+
+/// A particle that is seen by less is on the edge of the node's reach (particles aligned with the grid are, to round-off, and round-off would
+/// decide): all particles of a cloud count alike in a regression.
+constexpr double least_weight = 1e-10;
+
+}  // namespace
+
 template <int Dim>
 template <class Shape>
 void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<bool>& wanted) {
@@ -29,7 +37,7 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
             const std::size_t p = std::size_t{pack} * lanes + l;
             if (state.particles.is_padding(p)) continue;
             for (int n = 0; n < T::stencil; ++n) {
-              if (stencil.weight(n, l) == 0) continue;
+              if (stencil.weight(n, l) < least_weight) continue;
               const PairTarget t = targets ? targets[l * T::stencil + n]
                                            : PairTarget{static_cast<std::uint16_t>(stencil.of.lowest(l) + T::steps[n]),
                                                         static_cast<std::uint8_t>(stencil.of.layer), 0};

@@ -9,7 +9,7 @@
 
 namespace crampon {
 
-/// A particle that has a part in a node (S_ip != 0).
+/// A particle that has a part in a node (S_ip > 1e-10).
 template <int Dim>
 struct CloudPoint {
   int layer = 0;                  ///< of the node's block
