@@ -13,6 +13,7 @@ class Elastic:
     def __init__(self, spec, analysis):
         E, nu = spec["E"], spec["nu"]
         self.plane_stress = analysis == "plane_stress"
+        self.follows_deformation = False
         self.nu = nu
         self.G = E / (2 * (1 + nu))
         self.lam = E * nu / ((1 + nu) * (1 - 2 * nu))
@@ -59,6 +60,7 @@ class SmallStrain(Elastic):
 class FiniteDeformation(Elastic):
     def __init__(self, spec, analysis):
         super().__init__(spec, analysis)
+        self.follows_deformation = True
         self.F = [[1.0, 0.0], [0.0, 1.0]]
 
     def update(self, L, dt):
@@ -80,7 +82,7 @@ class FiniteDeformation(Elastic):
 
 
 class LargeRotation(FiniteDeformation):
-    """sigma = R C:(U - I) R^T, F = R U, Cauchy; f = -V0 J sigma G (kinematics.md 5)."""
+    """W = lambda/2 (tr e)^2 + G |e|^2 with e = U - I, F = R U: Kirchhoff tau = R T U R^T, T = C:e; f = -V0 tau G."""
 
     def stretch(self):
         """cos, sin of R and U - I, by the closed form tan(theta) = (F21 - F12)/(F11 + F22)."""
@@ -90,10 +92,12 @@ class LargeRotation(FiniteDeformation):
         return c, s, c * F[0][0] + s * F[1][0] - 1, -s * F[0][1] + c * F[1][1] - 1, c * F[0][1] + s * F[1][1]
 
     def stress(self):
+        J = self.volume_ratio()
         c, s, exx, eyy, exy = self.stretch()
-        xx, yy, zz, xy = self.hooke(exx, eyy, exy)
-        return [c * c * xx - 2 * c * s * xy + s * s * yy, s * s * xx + 2 * c * s * xy + c * c * yy, zz,
-                c * s * (xx - yy) + (c * c - s * s) * xy]
+        Txx, Tyy, Tzz, Txy = self.hooke(exx, eyy, exy)
+        xx, yy, xy = Txx * (1 + exx) + Txy * exy, Tyy * (1 + eyy) + Txy * exy, Txx * exy + Txy * (1 + eyy)
+        return [(c * c * xx - 2 * c * s * xy + s * s * yy) / J, (s * s * xx + 2 * c * s * xy + c * c * yy) / J, Tzz / J,
+                (c * s * (xx - yy) + (c * c - s * s) * xy) / J]
 
     def volume_ratio(self):
         J = self.area_ratio()

@@ -2,6 +2,7 @@
 /// Deformation gradients of four particles. 2D history: {Fxx, Fxy, Fyx, Fyy, Fzz}; 3D: row by row, 9 components.
 
 #include "crampon/core/pack.hpp"
+#include "crampon/state/particles.hpp"
 
 namespace crampon {
 
@@ -60,6 +61,32 @@ inline Pack area_ratio_of(const Pack* F) {
     return F[0] * F[3] - F[1] * F[2];
   } else {
     return determinant3(F);
+  }
+}
+
+/// b = F F^T = {xx, yy, xy, zz} or {xx, yy, zz, xy, yz, xz}.
+template <int Dim>
+inline void left_cauchy_green(const Pack* F, Pack* b) {
+  if constexpr (Dim == 2) {
+    b[0] = F[0] * F[0] + F[1] * F[1];
+    b[1] = F[2] * F[2] + F[3] * F[3];
+    b[2] = F[0] * F[2] + F[1] * F[3];
+    b[3] = F[4] * F[4];
+  } else {
+    const auto row = [&](int i, int j) { return F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1] + F[3 * i + 2] * F[3 * j + 2]; };
+    b[0] = row(0, 0), b[1] = row(1, 1), b[2] = row(2, 2), b[3] = row(0, 1), b[4] = row(1, 2), b[5] = row(0, 2);
+  }
+}
+
+/// Of b, in the plane (2D) or in space: a bound on the square of the longest stretch.
+template <int Dim>
+inline Pack largest_row_sum(const Pack* b) {
+  const auto magnitude = [](Pack a) { return lane_max(a, -a); };
+  if constexpr (Dim == 2) {
+    return lane_max(b[0], b[1]) + magnitude(b[2]);
+  } else {
+    return lane_max(lane_max(b[0] + magnitude(b[3]) + magnitude(b[5]), b[1] + magnitude(b[3]) + magnitude(b[4])),
+                    b[2] + magnitude(b[4]) + magnitude(b[5]));
   }
 }
 

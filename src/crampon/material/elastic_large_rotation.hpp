@@ -5,8 +5,10 @@
 
 namespace crampon {
 
-/// Isotropic elasticity, small strain with exact large rotation: sigma = R (C : (U - I)) R^T with F = R U, the Cauchy stress
-/// (kinematics.md 5). It is found from F at once, so nothing drifts.
+/// Isotropic elasticity, linear in the stretch and exact in rotation: W = lambda/2 (tr e)^2 + mu |e|^2 per initial volume with e = U - I and
+/// F = R U, so that the Biot stress is T = lambda tr(e) I + 2 mu e and the Kirchhoff stress tau = R T U R^T = R T F^T. Found from F at once:
+/// nothing drifts, and what is stored comes back. Under plane stress the stretch through the thickness is that of T_zz = 0,
+/// U_zz = 1 - nu/(1 - nu) tr(e) with the trace in the plane.
 struct ElasticLargeRotation {
   double E = 0;        ///< Young's modulus, Pa
   double nu = 0;       ///< Poisson's ratio
@@ -14,7 +16,7 @@ struct ElasticLargeRotation {
 
   static constexpr const char* name = "elastic_large_rotation";
   static const Declaration<ElasticLargeRotation>& declaration();
-  static constexpr bool wave_speed_changes = false;
+  static constexpr bool wave_speed_changes = true;
   static constexpr bool starts_with_deformation_gradient = true;
   template <int Dim>
   static constexpr int history_size = deformation_size<Dim>;
@@ -50,28 +52,27 @@ struct ElasticLargeRotation {
     stretch<Dim>(F, R, e);
     if constexpr (Dim == 2) {
       if constexpr (S == StressState::plane_stress) F[4] = 1. - nu / (1 - nu) * (e[0] + e[1]);
-      const Pack J = volume_ratio_of<2>(F), pressure = splat(c.plane_lambda(S)) * (e[0] + e[1]);
-      const Pack txx = J * fused(mu2, e[0], pressure), tyy = J * fused(mu2, e[1], pressure), txy = J * mu2 * e[2];
-      const Pack cc = R[0] * R[0], ss = R[2] * R[2], cs = R[0] * R[2];
-      stress[0] = cc * txx - 2. * cs * txy + ss * tyy;
-      stress[1] = ss * txx + 2. * cs * txy + cc * tyy;
-      stress[2] = cs * (txx - tyy) + (cc - ss) * txy;
-      stress[3] = S == StressState::plane_stress ? splat(0.) : J * pressure;
-      return J;
+      const Pack pressure = splat(c.plane_lambda(S)) * (e[0] + e[1]);
+      const Pack T_xx = fused(mu2, e[0], pressure), T_yy = fused(mu2, e[1], pressure), T_xy = mu2 * e[2];
+      const Pack RT[4] = {R[0] * T_xx + R[1] * T_xy, R[0] * T_xy + R[1] * T_yy, R[2] * T_xx + R[3] * T_xy, R[2] * T_xy + R[3] * T_yy};
+      stress[0] = RT[0] * F[0] + RT[1] * F[1];
+      stress[1] = RT[2] * F[2] + RT[3] * F[3];
+      stress[2] = RT[0] * F[2] + RT[1] * F[3];
+      stress[3] = S == StressState::plane_stress ? splat(0.) : pressure;
     } else {
-      const Pack J = volume_ratio_of<3>(F), pressure = splat(c.lambda) * (e[0] + e[1] + e[2]);
-      Pack T[9];  // J times the stress in the unrotated frame
-      T[0] = J * fused(mu2, e[0], pressure), T[4] = J * fused(mu2, e[1], pressure), T[8] = J * fused(mu2, e[2], pressure);
-      T[1] = T[3] = J * mu2 * e[3], T[5] = T[7] = J * mu2 * e[4], T[2] = T[6] = J * mu2 * e[5];
+      const Pack pressure = splat(c.lambda) * (e[0] + e[1] + e[2]);
+      Pack T[9];
+      T[0] = fused(mu2, e[0], pressure), T[4] = fused(mu2, e[1], pressure), T[8] = fused(mu2, e[2], pressure);
+      T[1] = T[3] = mu2 * e[3], T[5] = T[7] = mu2 * e[4], T[2] = T[6] = mu2 * e[5];
       Pack RT[9];
       for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) RT[3 * i + j] = R[3 * i] * T[j] + R[3 * i + 1] * T[3 + j] + R[3 * i + 2] * T[6 + j];
       }
-      const auto turned = [&](int i, int j) { return RT[3 * i] * R[3 * j] + RT[3 * i + 1] * R[3 * j + 1] + RT[3 * i + 2] * R[3 * j + 2]; };
-      stress[0] = turned(0, 0), stress[1] = turned(1, 1), stress[2] = turned(2, 2);
-      stress[3] = turned(0, 1), stress[4] = turned(1, 2), stress[5] = turned(0, 2);
-      return J;
+      const auto tau = [&](int i, int j) { return RT[3 * i] * F[3 * j] + RT[3 * i + 1] * F[3 * j + 1] + RT[3 * i + 2] * F[3 * j + 2]; };
+      stress[0] = tau(0, 0), stress[1] = tau(1, 1), stress[2] = tau(2, 2);
+      stress[3] = tau(0, 1), stress[4] = tau(1, 2), stress[5] = tau(0, 2);
     }
+    return volume_ratio_of<Dim>(F);
   }
 
   template <int Dim, StressState S>
@@ -94,6 +95,16 @@ struct ElasticLargeRotation {
       for (int k = 0; k < 6; ++k) r.strain[k] = e[k];
     }
     return r;
+  }
+
+  /// A bound on the fastest wave in the present state, for stretches up to 3: with dF = a (x) N the energy's second variation is
+  /// lambda (a.RN)^2 + 2 mu |a|^2 |N|^2 + (lambda tr e - 2 mu) dR : dF, and its last part is never more than lambda times what the first
+  /// leaves of |a|^2 |N|^2; so rho0 c^2 <= (lambda + 2 mu) times the square of the longest stretch.
+  template <int Dim, StressState S>
+  Pack present_wave_speed(const Pack* /*stress*/, const Pack* F) const {
+    Pack b[stress_size<Dim>];
+    left_cauchy_green<Dim>(F, b);
+    return wave_speed(S) * lane_sqrt(largest_row_sum<Dim>(b));
   }
 };
 

@@ -25,20 +25,6 @@ struct NeoHookean {
     initialise_deformation<Dim>(F);
   }
 
-  /// b = {xx, yy, xy, zz} or {xx, yy, zz, xy, yz, xz}.
-  template <int Dim>
-  static void left_cauchy_green(const Pack* F, Pack* b) {
-    if constexpr (Dim == 2) {
-      b[0] = F[0] * F[0] + F[1] * F[1];
-      b[1] = F[2] * F[2] + F[3] * F[3];
-      b[2] = F[0] * F[2] + F[1] * F[3];
-      b[3] = F[4] * F[4];
-    } else {
-      const auto row = [&](int i, int j) { return F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1] + F[3 * i + 2] * F[3 * j + 2]; };
-      b[0] = row(0, 0), b[1] = row(1, 1), b[2] = row(2, 2), b[3] = row(0, 1), b[4] = row(1, 2), b[5] = row(0, 2);
-    }
-  }
-
   template <int Dim, StressState S>
   Pack update(const Pack* L, double dt, Pack* stress, Pack* F) const {
     const ElasticConstants c(E, nu);
@@ -93,14 +79,7 @@ struct NeoHookean {
     const ElasticConstants c(E, nu);
     Pack b[stress_size<Dim>];
     left_cauchy_green<Dim>(F, b);
-    const auto magnitude = [](Pack a) { return lane_max(a, -a); };
-    Pack longest;
-    if constexpr (Dim == 2) {
-      longest = lane_max(b[0], b[1]) + magnitude(b[2]);
-    } else {
-      longest = lane_max(lane_max(b[0] + magnitude(b[3]) + magnitude(b[5]), b[1] + magnitude(b[3]) + magnitude(b[4])),
-                         b[2] + magnitude(b[4]) + magnitude(b[5]));
-    }
+    const Pack longest = largest_row_sum<Dim>(b);
     Pack lambda = splat(c.lambda);
     if constexpr (S == StressState::plane_stress) lambda = 2 * c.lambda * c.mu * b[3] / (c.lambda + 2 * c.mu * b[3]);
     const Pack square = (lambda + c.mu + c.mu * longest - c.lambda * lane_log(volume_ratio_of<Dim>(F))) / density;
