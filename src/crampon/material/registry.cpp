@@ -28,7 +28,8 @@ const Declaration<ElasticSmallStrain>& ElasticSmallStrain::declaration() {
 
 const Declaration<ElasticLargeRotation>& ElasticLargeRotation::declaration() {
   static const auto d = isotropic<ElasticLargeRotation>(
-      "Isotropic elasticity for small strain and any rotation: stored energy of the stretch U of F = R U, lambda/2 tr(U - I)^2 + mu |U - I|^2.");
+      "Isotropic elasticity for small strain and any rotation: stored energy of the stretch U of F = R U, lambda/2 tr(U - I)^2 + mu |U - "
+      "I|^2.");
   return d;
 }
 

@@ -134,6 +134,11 @@ class Engine final : public Simulation {
                                     {"energy_closure", "J"}};
     for (int k = 0; k < Dim; ++k) c.push_back({std::string("momentum_") + axis_names[k], "kg m/s"});
     c.push_back({"angular_momentum_z", "kg m2/s"});
+    if (model_.leaving_particle == LeavingParticle::remove) {
+      c.insert(c.end(), {{"left_mass", "kg"}, {"left_energy", "J"}});
+      for (int k = 0; k < Dim; ++k) c.push_back({std::string("left_momentum_") + axis_names[k], "kg m/s"});
+      c.push_back({"left_angular_momentum_z", "kg m2/s"});
+    }
     for (const auto& condition : model_.conditions) {
       for (int k = 0; k < Dim; ++k) c.push_back({std::string("reaction_") + axis_names[k] + "." + condition.name, "N"});
     }
@@ -165,7 +170,8 @@ class Engine final : public Simulation {
     const double load_work = e.load_work + cohesive.work_of_pressure;
     const double held = e.interfaces + cohesive.stored,
                  lost = e.damping + e.contact_loss + e.friction_loss + cohesive.dissipated_normal + cohesive.dissipated_shear;
-    const double closure = total + held + lost - load_work - e.body_work - e.boundary_work - initial_energy_;
+    const double left_energy = state_.left.kinetic + state_.left.strain;
+    const double closure = total + held + lost + left_energy - load_work - e.body_work - e.boundary_work - initial_energy_;
     std::vector<double> row = {state_.time,
                                sums.kinetic,
                                sums.strain,
@@ -183,6 +189,11 @@ class Engine final : public Simulation {
                                closure};
     for (int k = 0; k < Dim; ++k) row.push_back(sums.momentum[k]);
     row.push_back(sums.angular);
+    if (model_.leaving_particle == LeavingParticle::remove) {
+      row.insert(row.end(), {state_.left.mass, left_energy});
+      for (int k = 0; k < Dim; ++k) row.push_back(state_.left.momentum[k]);
+      row.push_back(state_.left.angular);
+    }
     for (std::size_t c = 0; c < model_.conditions.size(); ++c) {
       for (int k = 0; k < Dim; ++k) row.push_back(c < state_.reactions.size() ? state_.reactions[c][k] : 0.);
     }

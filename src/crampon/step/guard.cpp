@@ -7,6 +7,7 @@
 
 #include "crampon/core/error.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/ledger.hpp"
 
 namespace crampon {
 
@@ -128,11 +129,12 @@ void check_health(State<Dim>& state, const Model<Dim>& model, double dt) {
     if (health.inverted) report_inverted(state, model, b);
     if (health.moved_too_far) report_fast(state, model, b, dt);
     if (health.left_grid) {
-      for_particles(state, b, [&](std::size_t p, const Run&) {
+      for_particles(state, b, [&](std::size_t p, const Run& run) {
         if (model.grid.contains(state.particles.position(p))) return;
         if (model.leaving_particle == LeavingParticle::error) {
           stop(state, p, "has left the grid", "enlarge the grid, or set method.leaving_particle = \"remove\"");
         }
+        book_departure(state, model, run, p);
         state.particles.id[p] = padding_id;
         state.particles.mass_volume[p / lanes * 2][p % lanes] = 0.;
         state.particles.mass_volume[p / lanes * 2 + 1][p % lanes] = 0.;

@@ -73,46 +73,58 @@ void close_ledger(State<Dim>& state, const Model<Dim>& model) {
   state.most_crowded_nodes = std::max(state.most_crowded_nodes, crowded);
 }
 
+namespace {
+
+/// Of the chosen lanes of a pack.
+template <int Dim, class Chosen>
+void add_pack(const State<Dim>& state, const Model<Dim>& model, const Run& run, std::size_t pack, Chosen chosen, ParticleSums<Dim>& sum) {
+  const Particles<Dim>& particles = state.particles;
+  const PackReport report = model.materials[run.material].law->report(model.stress_state, Dim, &particles.stress[pack * stress_size<Dim>],
+                                                                      particles.history.data() + pack * particles.history_size);
+  const Pack strain = report.energy * particles.mass_volume[2 * pack + 1];
+  for (int l = 0; l < lanes; ++l) {
+    const std::size_t p = pack * lanes + l;
+    if (!chosen(p)) continue;
+    const double m = particles.mass(p);
+    const Vec<Dim> v = particles.velocity(p), x = particles.position(p);
+    sum.mass += m;
+    sum.kinetic += 0.5 * m * dot(v, v);
+    sum.strain += strain[l];
+    sum.momentum += v * m;
+    sum.angular += m * (x[0] * v[1] - x[1] * v[0]);
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 ParticleSums<Dim> sum_particles(const State<Dim>& state, const Model<Dim>& model) {
   std::vector<ParticleSums<Dim>> parts(state.blocks.runs.size());
-  const Particles<Dim>& particles = state.particles;
   parallel_for(parts.size(), model.threads, [&](std::size_t r) {
     const Run& run = state.blocks.runs[r];
-    if (model.is_rigid(model.materials[run.material].field)) return;  // its mass is a volume
-    ParticleSums<Dim>& sum = parts[r];
+    if (model.is_rigid(model.materials[run.material].field)) return;
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
-      const PackReport report = model.materials[run.material].law->report(model.stress_state, Dim, &particles.stress[k * stress_size<Dim>],
-                                                                          particles.history.data() + k * particles.history_size);
-      const Pack strain = report.energy * particles.mass_volume[2 * k + 1];
-      for (int l = 0; l < lanes; ++l) {
-        const std::size_t p = k * lanes + l;
-        if (particles.is_padding(p)) continue;
-        const double m = particles.mass(p);
-        const Vec<Dim> v = particles.velocity(p), x = particles.position(p);
-        sum.mass += m;
-        sum.kinetic += 0.5 * m * dot(v, v);
-        sum.strain += strain[l];
-        sum.momentum += v * m;
-        sum.angular += m * (x[0] * v[1] - x[1] * v[0]);
-      }
+      add_pack(
+          state, model, run, k, [&](std::size_t p) { return !state.particles.is_padding(p); }, parts[r]);
     }
   });
   ParticleSums<Dim> total;
-  for (const auto& part : parts) {
-    total.mass += part.mass;
-    total.kinetic += part.kinetic;
-    total.strain += part.strain;
-    total.momentum += part.momentum;
-    total.angular += part.angular;
-  }
+  for (const auto& part : parts) total += part;
   return total;
+}
+
+template <int Dim>
+void book_departure(State<Dim>& state, const Model<Dim>& model, const Run& run, std::size_t particle) {
+  if (model.is_rigid(model.materials[run.material].field)) return;
+  add_pack(
+      state, model, run, particle / lanes, [&](std::size_t p) { return p == particle; }, state.left);
 }
 
 #define CRAMPON_INSTANTIATE(DIM)                                                                                       \
   template void evaluate_loads<DIM>(const State<DIM>&, const Model<DIM>&, std::vector<Vec<DIM>>&, Vec<DIM>&, double&); \
   template void close_ledger<DIM>(State<DIM>&, const Model<DIM>&);                                                     \
-  template ParticleSums<DIM> sum_particles<DIM>(const State<DIM>&, const Model<DIM>&);
+  template ParticleSums<DIM> sum_particles<DIM>(const State<DIM>&, const Model<DIM>&);                                 \
+  template void book_departure<DIM>(State<DIM>&, const Model<DIM>&, const Run&, std::size_t);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE

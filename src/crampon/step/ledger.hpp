@@ -19,14 +19,12 @@ void record_initial_volume(State<Dim>& state, const Model<Dim>& model);
 template <int Dim>
 void close_ledger(State<Dim>& state, const Model<Dim>& model);
 
-/// Kinetic and strain energy of all particles, J, and their momentum, kg m/s.
-template <int Dim>
-struct ParticleSums {
-  double mass = 0, kinetic = 0, strain = 0;
-  Vec<Dim> momentum;
-  double angular = 0;  ///< z component about the origin, kg m2/s
-};
+/// Over all particles but those of rigid bodies, whose masses are volumes.
 template <int Dim>
 ParticleSums<Dim> sum_particles(const State<Dim>& state, const Model<Dim>& model);
+
+/// Books what a particle that is about to be removed takes along.
+template <int Dim>
+void book_departure(State<Dim>& state, const Model<Dim>& model, const Run& run, std::size_t particle);
 
 }  // namespace crampon

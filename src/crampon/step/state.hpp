@@ -102,6 +102,19 @@ struct EnergyTotals {
   double interfaces = 0;  ///< held by interfaces now
 };
 
+/// Sums over particles.
+template <int Dim>
+struct ParticleSums {
+  double mass = 0, kinetic = 0, strain = 0;  ///< kg, J, J
+  Vec<Dim> momentum;                         ///< kg m/s
+  double angular = 0;                        ///< z component about the origin, kg m2/s
+  ParticleSums& operator+=(const ParticleSums& other) {
+    mass += other.mass, kinetic += other.kinetic, strain += other.strain, angular += other.angular;
+    momentum += other.momentum;
+    return *this;
+  }
+};
+
 /// A force on a node in one field.
 template <int Dim>
 struct NodalForce {
@@ -184,6 +197,7 @@ struct State {
   bool must_reorder = true;
   std::size_t particle_count = 0;
   std::int64_t removed = 0;  ///< particles removed on leaving the grid
+  ParticleSums<Dim> left;    ///< what they took along
 
   EnergyTotals energy;
   std::vector<Vec<Dim>> reactions;  ///< per condition, last step, N
