@@ -194,7 +194,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
       for (int q = 0; q < pair_count && task == ContactTask::four; ++q) {
         pairs[q].rubbing = rubbing(pairs[q]);
         // Without Task 6 the velocity of the particles at the end is not known: that at the start stands for both.
-        if (!re_extrapolates) rubbed += friction_work(pairs[q], pairs[q].w_start);
+        if (!model.re_extrapolates()) rubbed += friction_work(pairs[q], pairs[q].w_start);
         close_pair(groups, pairs[q], dt, ledger);
         if (remembers) put_gain(state, b, node, pairs[q]);
       }
