@@ -82,15 +82,18 @@ TEST_P(PressurisedCrack, OpensAsSneddonSays) {
                                      "traction = { law = \"pressure\", pressure = { expression = \"1000*min(t/0.5, 1)\" } }", "", 2, 15));
   run(*simulation);
   const CrackFrame crack = simulation->cracks();
-  double worst = 0;
+  double worst = 0, worst_inside = 0;
   for (const double x : {0., 0.25, 0.5, 0.75}) {
     const double exact = 8 * p * half_spacing / (pi * stiff) * std::acosh(std::cos(k * x) / std::cos(k * half_length));
     const double error = opening_at(crack, x) / exact - 1;
     RecordProperty(fmt::format("error_percent_at_{:.0f}", 100 * x), fmt::format("{:.2f}", 100 * error));
     worst = std::fmax(worst, std::fabs(error));
+    if (x <= 0.5) worst_inside = worst;
   }
-  // Row 15: 3 %. B-splines see the tip from further away: the crack is longer by about a cell.
-  EXPECT_LT(worst, std::string(GetParam().shape_functions) == "bspline" ? 0.15 : 0.03);
+  // Row 15: 3 %, and .7 % within half the crack. Surface points average over a cell, and 2.5 cells from the tip the ellipse bends enough to take
+  // .5 % from the opening: 3.3 %. B-splines see the tip from further away: the crack is longer by about half a cell, 9 %.
+  EXPECT_LT(worst, std::string(GetParam().shape_functions) == "bspline" ? 0.1 : 0.035);
+  EXPECT_LT(worst_inside, std::string(GetParam().shape_functions) == "bspline" ? 0.1 : 0.01);
   // Forces on the nodes and motion of the faces have the same weights: what is left is of the second order in the time step.
   EXPECT_NEAR(value(*simulation, "energy_closure"), 0, 0.002 * value(*simulation, "load_work"));
 }
