@@ -110,7 +110,7 @@ bool FaceToFace<Dim>::see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& 
 
 template <int Dim>
 bool FaceToFace<Dim>::see_across(const MeetingPlace<Dim>& place, const CrackAtNode<Dim>& crack, const Face<Dim>& a, const Face<Dim>& b,
-                                 ContactPair<Dim>& pair) const {
+                                 ContactPair<Dim>& pair) {
   if (crack.side == 0 || crack.n == Vec<Dim>{}) return false;
   pair.n = crack.n;
   pair.volume_ratio = relative_volume(place);
@@ -152,6 +152,19 @@ double FaceToFace<Dim>::area_on_rigid(const Face<Dim>& a, const Face<Dim>& b, do
   return part * filled * cell_volume() / plane.h * thickness(a, b);
 }
 
+/// In long cells a node sees of an oblique face a piece whose mean position depends on where along the face that piece lies: beside the
+/// face's end by up to a whole cell. There the outlines of the particles tell, along the normal, which is uncertain at the ends, and
+/// along others.
+template <int Dim>
+double FaceToFace<Dim>::gap_of_outlines(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const Vec<Dim>& n) {
+  outlined_.clear();
+  for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) {
+    outlined_.push_back({point.x, point.half_edges(), point.m, side});
+  });
+  const Vec<Dim> directions[] = {n, a.g, b.g};
+  return outline_gap<Dim>(outlined_, directions);
+}
+
 template <int Dim>
 double FaceToFace<Dim>::relative_volume(const MeetingPlace<Dim>& place) const {
   double reference = cell_volume();
@@ -170,11 +183,12 @@ double FaceToFace<Dim>::gap_by_volume(double volume_ratio) const {
 
 template <int Dim>
 double FaceToFace<Dim>::gap(ContactDetection detection, const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b,
-                            const ContactPair<Dim>& pair, const Vec<Dim>& original_normal) const {
+                            const ContactPair<Dim>& pair, const Vec<Dim>& original_normal) {
   switch (detection) {
     case ContactDetection::position: {
       const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
       if (model_.contact.position_cutoff) return dot(apart(a, b), pair.n) - *model_.contact.position_cutoff * plane.h;
+      if (!has_even_cells(model_.grid) && !a.rigid && !b.rigid) return gap_of_outlines(place, a, b, pair.n);
       return position_gap(dot(a.x, pair.n) / a.m, model_.fields[a.field].edge, dot(b.x, pair.n) / b.m, model_.fields[b.field].edge, plane);
     }
     case ContactDetection::regression: {

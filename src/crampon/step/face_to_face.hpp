@@ -5,6 +5,7 @@
 
 #include "crampon/contact/node_solve.hpp"
 #include "crampon/contact/normal.hpp"
+#include "crampon/contact/outline_gap.hpp"
 #include "crampon/step/contact_cloud.hpp"
 #include "crampon/step/model.hpp"
 #include "crampon/step/state.hpp"
@@ -80,6 +81,16 @@ struct MeetingPlace {
   const std::vector<CloudPoint<Dim>>* points = nullptr;
 };
 
+/// Are cells of equal sides, but for a tenth? In others what a node sees of an oblique face depends too much on where the face ends.
+template <int Dim>
+bool has_even_cells(const Grid<Dim>& grid) {
+  const double shortest = grid.smallest_cell();
+  for (int k = 0; k < Dim; ++k) {
+    if (grid.cell[k] > 1.1 * shortest) return false;
+  }
+  return true;
+}
+
 template <int Dim>
 class FaceToFace {
  public:
@@ -93,7 +104,7 @@ class FaceToFace {
   bool see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const;
   /// a above and b below a crack.
   bool see_across(const MeetingPlace<Dim>& place, const CrackAtNode<Dim>& crack, const Face<Dim>& a, const Face<Dim>& b,
-                  ContactPair<Dim>& pair) const;
+                  ContactPair<Dim>& pair);
 
  private:
   void look_back(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const;
@@ -101,15 +112,17 @@ class FaceToFace {
   double thickness(const Face<Dim>& a, const Face<Dim>& b) const;
   double area_between(const Face<Dim>& a, const Face<Dim>& b, const Vec<Dim>& n) const;
   double area_on_rigid(const Face<Dim>& a, const Face<Dim>& b, double depth, const Vec<Dim>& n, const PlaneInCells& plane) const;
+  double gap_of_outlines(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const Vec<Dim>& n);
   double relative_volume(const MeetingPlace<Dim>& place) const;
   double gap_by_volume(double volume_ratio) const;
   double gap(ContactDetection detection, const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b,
-             const ContactPair<Dim>& pair, const Vec<Dim>& original_normal) const;
+             const ContactPair<Dim>& pair, const Vec<Dim>& original_normal);
   Vec<Dim> found_normal(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b);
 
   const State<Dim>& state_;
   const Model<Dim>& model_;
   std::vector<LabelledPoint<Dim>> labelled_;
+  std::vector<OutlinedParticle<Dim>> outlined_;
 };
 
 }  // namespace crampon

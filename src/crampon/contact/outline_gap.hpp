@@ -1,0 +1,27 @@
+#pragma once
+/// Distance of two bodies at a node from the outlines of their particles, whatever piece of the faces the node sees.
+
+#include <array>
+#include <span>
+
+#include "crampon/contact/normal.hpp"
+#include "crampon/core/vector.hpp"
+
+namespace crampon {
+
+/// A particle as a (deformed) box.
+template <int Dim>
+struct OutlinedParticle {
+  Vec<Dim> x;                              ///< its middle, from the node, m
+  std::array<Vec<Dim>, Dim> half_edges{};  ///< from its middle to the middles of its faces, m
+  double weight = 1;                       ///< its part in the node, kg
+  ContactSide side = ContactSide::a;
+};
+
+/// Gap between a and b, m; negative when they overlap. Two bodies are as far apart as any direction shows their outlines: of `directions` (any
+/// length and sign; zeros are left out) of the sides of both bodies' particles in the mean, and of some on the way to their closest points, the one that shows most counts. Exact for
+/// faces with particles in rows along them, up to their ends; a staircase of particles reads as close as its teeth come.
+template <int Dim>
+double outline_gap(std::span<const OutlinedParticle<Dim>> particles, std::span<const Vec<Dim>> directions);
+
+}  // namespace crampon
