@@ -33,6 +33,39 @@ Grid panel_grid(const std::string& text) {
   return grid;
 }
 
+void check_options(const DrawArguments& arguments) {
+  const bool history = !arguments.history.empty(), profile = !arguments.profile.empty(), picture = !history && !profile;
+  struct Option {
+    const char* name;
+    bool given, has_effect;
+    const char* instead;
+  };
+  const char* of_particles = "it shows particles: leave out --history, or this";
+  const char* of_pictures = "it is for pictures of particles";
+  const Option options[] = {
+      {"--quantity", !arguments.quantity.empty(), !history, "name columns after --history"},
+      {"--frame", !arguments.frames.empty(), !history, of_particles},
+      {"--time", !arguments.times.empty(), !history, "the ends of the time axis are set by --window"},
+      {"--all", arguments.all, !history, of_particles},
+      {"--panel", !arguments.panel.empty(), picture,
+       profile ? "several frames are curves of one plot: --frame, --time or --all" : of_pictures},
+      {"--magnify", arguments.magnify != 1, picture, of_pictures},
+      {"--range", !arguments.range.empty(), picture, "the ends of the axes are set by --window"},
+      {"--symmetric", arguments.symmetric, picture, of_pictures},
+      {"--palette", !arguments.palette.empty(), picture, of_pictures},
+      {"--fringes", arguments.fringes, !history, of_particles},
+      {"--fringe-constant", arguments.fringe_constant.has_value(), !history && coloured_by(arguments) == "fringes",
+       "it goes with --fringes"},
+      {"--compare", !arguments.compare.empty(), history, "only plots of --history compare runs"},
+  };
+  const char* kind = history ? "a plot of histories" : profile ? "a profile" : "a picture";
+  for (const Option& option : options) {
+    if (option.given && !option.has_effect) throw UsageError(fmt::format("{} has no effect on {}; {}", option.name, kind, option.instead));
+  }
+  if (arguments.fringes && !arguments.quantity.empty())
+    throw UsageError("--fringes and --quantity are both given; each says what to colour by");
+}
+
 std::vector<std::size_t> choose_frames(const DrawArguments& arguments, const std::vector<PvdEntry>& frames) {
   const auto count = static_cast<std::ptrdiff_t>(frames.size());
   std::vector<std::size_t> chosen;
@@ -50,7 +83,14 @@ std::vector<std::size_t> choose_frames(const DrawArguments& arguments, const std
   }
   if (arguments.all)
     for (std::size_t i = 0; i < frames.size(); ++i) chosen.push_back(i);
-  if (!chosen.empty()) return chosen;
+  if (!chosen.empty()) {
+    if (arguments.panel.empty()) return chosen;
+    const Grid panel = panel_grid(arguments.panel);
+    if (chosen.size() > static_cast<std::size_t>(panel.rows) * static_cast<std::size_t>(panel.columns))
+      throw UsageError(fmt::format("--panel {}: there is no room for {} frames; ask for more rows or columns, or for fewer frames",
+                                   arguments.panel, chosen.size()));
+    return chosen;
+  }
   if (arguments.panel.empty()) return {frames.size() - 1};
   const Grid grid = panel_grid(arguments.panel);
   const auto places = std::min<std::size_t>(static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns), frames.size());
@@ -72,7 +112,9 @@ std::string coloured_by(const DrawArguments& arguments) {
   return arguments.quantity.empty() ? DrawOptions().quantity : arguments.quantity;
 }
 
-fs::path prepared(const fs::path& file) {
+fs::path picture_file(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& name) {
+  const fs::path given(arguments.output);
+  const fs::path file = given.extension() == ".png" ? given : (given.empty() ? folder.path() / "pictures" : given) / name;
   if (file.has_parent_path()) fs::create_directories(file.parent_path());
   return file;
 }

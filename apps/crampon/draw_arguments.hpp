@@ -21,6 +21,9 @@ struct Grid {
 /// "2x3". Throws UsageError.
 Grid panel_grid(const std::string& text);
 
+/// Throws UsageError for an option that the chosen kind of drawing would pass over in silence.
+void check_options(const DrawArguments& arguments);
+
 /// Which frames to draw, as indices into the series. Throws UsageError.
 std::vector<std::size_t> choose_frames(const DrawArguments& arguments, const std::vector<PvdEntry>& frames);
 
@@ -30,8 +33,9 @@ std::optional<std::array<double, 4>> window_of(const DrawArguments& arguments, c
 /// The quantity to colour by or to plot.
 std::string coloured_by(const DrawArguments& arguments);
 
-/// The file, its folder created.
-std::filesystem::path prepared(const std::filesystem::path& file);
+/// Where a drawing of this name goes: --output when that is a file, else the folder that it names, else the results' pictures. The folder is
+/// created.
+std::filesystem::path picture_file(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& name);
 
 /// Says what was written.
 void made(const std::filesystem::path& file);

@@ -87,8 +87,9 @@ void draw_pictures(const DrawArguments& arguments, const ResultsFolder& folder, 
   const std::vector<PvdEntry> frames = folder.particle_frames(), cracks = folder.crack_frames();
   if (frames.empty()) throw UsageError(fmt::format("{}: there are no frames to draw", folder.path().string()));
   const std::vector<std::size_t> chosen = choose_frames(arguments, frames);
-  if (arguments.fringes && !arguments.quantity.empty())
-    throw UsageError("--fringes and --quantity are both given; each says what to colour by");
+  if (chosen.size() > 1 && arguments.panel.empty() && fs::path(arguments.output).extension() == ".png")
+    throw UsageError(fmt::format("--output {}: a file is named for {} pictures; name a folder, or put them into one picture by --panel",
+                                 arguments.output, chosen.size()));
   const std::string unit = evaluate_quantity(folder.read_particles(frames[chosen.front()]), coloured_by(arguments)).unit;
   DrawOptions options = picture_options(arguments, title, unit.empty() ? "1" : unit);
 
@@ -97,17 +98,14 @@ void draw_pictures(const DrawArguments& arguments, const ResultsFolder& folder, 
     std::vector<Snapshot> snapshots;
     snapshots.reserve(chosen.size());
     for (const std::size_t i : chosen) snapshots.push_back(moments.emplace_back(read_moment(folder, frames[i], cracks)).snapshot());
-    const fs::path file =
-        prepared(arguments.output.empty() ? folder.path() / "pictures" / (options.quantity + "_panel.png") : fs::path(arguments.output));
+    const fs::path file = picture_file(arguments, folder, options.quantity + "_panel.png");
     draw_panel(snapshots, options, file);
     made(file);
     return;
   }
   fix_range(options, folder, frames, chosen);
   for (const std::size_t i : chosen) {
-    const bool one = chosen.size() == 1 && !arguments.all;
-    const fs::path into = arguments.output.empty() ? folder.path() / "pictures" : fs::path(arguments.output);
-    const fs::path file = prepared(one && !arguments.output.empty() ? into : into / fmt::format("{}_{:06}.png", options.quantity, i));
+    const fs::path file = picture_file(arguments, folder, fmt::format("{}_{:06}.png", options.quantity, i));
     const Moment moment = read_moment(folder, frames[i], cracks);
     draw_frame(moment.particles, moment.cracks ? &*moment.cracks : nullptr, options, file);
     made(file);
@@ -118,7 +116,7 @@ void draw_pictures(const DrawArguments& arguments, const ResultsFolder& folder, 
 
 int draw_command(const DrawArguments& arguments) {
   check_picture_name(arguments);
-  if (!arguments.compare.empty() && arguments.history.empty()) throw UsageError("--compare: only plots of --history compare runs");
+  check_options(arguments);
   if (!std::isfinite(arguments.magnify)) throw UsageError("--magnify: a finite number is needed");
   if (arguments.fringe_constant && !(*arguments.fringe_constant > 0)) throw UsageError("--fringe-constant: a positive number is needed");
   const ResultsFolder folder = ResultsFolder::open(arguments.results);

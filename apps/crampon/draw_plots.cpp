@@ -71,7 +71,6 @@ struct Strip {
 
 void draw_history(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& title) {
   PlotOptions options = plot_options(arguments, title);
-  const fs::path file = prepared(arguments.output.empty() ? folder.path() / "pictures" / "history.png" : fs::path(arguments.output));
   std::vector<fs::path> folders = {folder.path()};
   folders.insert(folders.end(), arguments.compare.begin(), arguments.compare.end());
   std::vector<History> histories;
@@ -91,6 +90,7 @@ void draw_history(const DrawArguments& arguments, const ResultsFolder& folder, c
     options.x_lowest = (*window)[0], options.x_highest = (*window)[1];
     options.y_lowest = (*window)[2], options.y_highest = (*window)[3];
   }
+  const fs::path file = picture_file(arguments, folder, "history.png");
   plot_history(curves, options, file);
   made(file);
 }
@@ -110,6 +110,7 @@ void draw_profile(const DrawArguments& arguments, const ResultsFolder& folder, c
   double lowest = INFINITY, highest = -INFINITY, time = 0;
   for (const std::size_t i : chosen) {
     const PointFrame frame = folder.read_particles(frames[i]);
+    if (axis >= static_cast<std::size_t>(frame.dimension)) throw UsageError("--profile z: these results are in the plane; choose x or y");
     const Quantity quantity = evaluate_quantity(frame, options.y_name, arguments.fringe_constant.value_or(paper_fringe_constant));
     Curve& curve = curves.emplace_back();
     curve.label = quantity_text(frame.time, frames[chosen.back()].time, "s");
@@ -143,7 +144,7 @@ void draw_profile(const DrawArguments& arguments, const ResultsFolder& folder, c
       curve.y.push_back(formula(std::array<double, 2>{x, time}));
     }
   }
-  const fs::path file = prepared(arguments.output.empty() ? folder.path() / "pictures" / "profile.png" : fs::path(arguments.output));
+  const fs::path file = picture_file(arguments, folder, "profile.png");
   plot_profiles(curves, options, file);
   made(file);
 }
