@@ -6,6 +6,7 @@
 #include "crampon/output/history.hpp"
 #include "crampon/output/quantity.hpp"
 #include "crampon/output/results_folder.hpp"
+#include "crampon/output/results_hash.hpp"
 #include "crampon/output/run_record.hpp"
 #include "terminal.hpp"
 
@@ -52,13 +53,11 @@ void print_record(const RunRecord& record) {
 
 int info_command(const InfoArguments& arguments) {
   const ResultsFolder folder = ResultsFolder::open(arguments.results);
-  const RunRecord record = read_run_record(folder.run_record());
   if (arguments.hash) {
-    if (record.status == "running")
-      throw UsageError(fmt::format("{}: the run has not ended in order; there is no final state", arguments.results));
-    fmt::print("{:016x}\n", record.state_hash);
+    fmt::print("{:016x}\n", hash_results(folder));
     return exit_ok;
   }
+  const RunRecord record = read_run_record(folder.run_record());
   fmt::print("{}\n", styled(stdout, Style::bold, arguments.results));
   print_record(record);
 

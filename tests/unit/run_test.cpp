@@ -63,12 +63,20 @@ class FakeSimulation : public Simulation {
   std::vector<double> history_row() const override { return {time_, 3 * time_, time_ * time_}; }
   std::uint64_t state_hash() const override { return 0xabcU + static_cast<std::uint64_t>(steps_); }
   std::vector<PhaseTime> phases() const override { return {{"everything", 0.5}}; }
+  std::vector<std::string> notes_at_start() const override { return {"an early note"}; }
   std::vector<std::string> notes() const override { return {"a note"}; }
 
  private:
   double dt_, end_, time_ = 0;
   std::int64_t steps_ = 0;
   bool broken_ = false;
+};
+
+/// Cannot show its particles, so that no run can start.
+class BrokenSimulation : public FakeSimulation {
+ public:
+  using FakeSimulation::FakeSimulation;
+  PointFrame particles(const std::vector<std::string>&, Precision) const override { throw std::runtime_error("no frame"); }
 };
 
 class RunTest : public ::testing::Test {
@@ -129,6 +137,20 @@ TEST_F(RunTest, AFixedStepIsNotCutWhereOutputFallsOnIt) {
   EXPECT_EQ(frame_times().size(), 21U);
 }
 
+TEST_F(RunTest, OlderResultsSurviveARunThatCannotStart) {
+  FakeSimulation first(0.1, 1);
+  run_problem(problem, first, options);
+  options.overwrite = Overwrite::replace;
+  BrokenSimulation broken(0.1, 1);
+  EXPECT_THROW(run_problem(problem, broken, options), std::runtime_error);
+  EXPECT_EQ(read_run_record(results().run_record()).status, "finished");
+  EXPECT_EQ(frame_times(), (std::vector<double>{0, 1}));
+  FakeSimulation second(0.1, 2);
+  run_problem(problem, second, options);
+  EXPECT_EQ(frame_times(), (std::vector<double>{0, 2}));
+  EXPECT_FALSE(fs::exists(options.folder / "replaced.partial"));
+}
+
 TEST_F(RunTest, FramesByStepsAndOneFirstAndOneLastFrame) {
   problem.output.every_steps = 4;
   FakeSimulation simulation(0.1, 1);
@@ -181,7 +203,7 @@ TEST_F(RunTest, TheRecordTellsTheRun) {
   EXPECT_EQ(record.threads, 2);
   EXPECT_EQ(record.input, "some.toml");
   EXPECT_EQ(record.state_hash, simulation.state_hash());
-  EXPECT_EQ(record.notes, (std::vector<std::string>{"a note"}));
+  EXPECT_EQ(record.notes, (std::vector<std::string>{"an early note", "a note"}));
   ASSERT_EQ(record.phases.size(), 2U);
   EXPECT_EQ(record.phases[0].name, "everything");
   EXPECT_EQ(read_file(options.folder / "input.original.toml"), problem.source);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "crampon/output/file.hpp"
+#include "crampon/output/picture_mark.hpp"
 
 namespace crampon {
 namespace {
@@ -90,6 +91,7 @@ void Canvas::save(const std::filesystem::path& path) const {
   cairo_surface_flush(surface());
   std::string png;
   check(cairo_surface_write_to_png_stream(surface(), append_bytes, &png));
+  mark_picture(png);
   write_file(path, png);
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "crampon/output/file.hpp"
+#include "crampon/output/picture_mark.hpp"
 #include "crampon/output/run_record.hpp"
 
 namespace crampon {
@@ -50,7 +52,8 @@ std::vector<fs::path> drawn_pictures(const fs::path& folder) {
   std::vector<fs::path> found;
   if (!fs::is_directory(fs::symlink_status(folder / "pictures"))) return found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "pictures"))
-    if (entry.path().extension() == ".png" && fs::is_regular_file(entry.symlink_status())) found.push_back(entry.path());
+    if (entry.path().extension() == ".png" && fs::is_regular_file(entry.symlink_status()) && is_marked_picture(entry.path()))
+      found.push_back(entry.path());
   return found;
 }
 
@@ -65,17 +68,99 @@ void create_folder(const fs::path& path) {
   if (!fs::is_directory(path)) fail(path, "create folder", std::make_error_code(std::errc::not_a_directory));
 }
 
+// Sub-folders: of results that come back unless the new run starts, and of results that go.
+constexpr const char *set_aside = "replaced.partial", *removed = "removed.partial";
+constexpr const char* record_name = "run.json";
+
+void remove_empty_folders(const fs::path& folder) {
+  std::error_code ignored;  // one stays when something else is in it
+  for (const char* name : {"particles", "cracks", "grid", "pictures", ""}) fs::remove(folder / name, ignored);
+}
+
+// Moves files, given relative to both folders; a sub-folder is made where there is none.
+void move_files(const fs::path& from, const fs::path& to, const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    create_folder((to / file).parent_path());
+    std::error_code code;
+    fs::rename(from / file, to / file, code);
+    if (code) fail(from / file, "move", code);
+  }
+}
+
+// Relative to the folder, the record of the run last.
+std::vector<fs::path> results_in(const fs::path& folder) {
+  std::vector<fs::path> files = written_files(folder);
+  const std::vector<fs::path> pictures = drawn_pictures(folder);
+  files.insert(files.end(), pictures.begin(), pictures.end());
+  for (fs::path& file : files) file = file.lexically_relative(folder);
+  std::stable_partition(files.begin(), files.end(), [](const fs::path& file) { return file != record_name; });
+  return files;
+}
+
 }  // namespace
+
+OlderResults::OlderResults(const fs::path& folder) : folder_(folder) {
+  if (!fs::is_directory(folder)) return;
+  delete_removed();
+  files_ = results_in(folder / set_aside);
+  put_back();  // what a run left that was killed before it had started
+  const std::vector<fs::path> files = written_files(folder).empty() ? std::vector<fs::path>{} : results_in(folder);
+  try {
+    for (const fs::path& file : files) {
+      move_files(folder, folder / set_aside, {file});
+      files_.push_back(file);
+    }
+  } catch (...) {
+    move_files(folder / set_aside, folder, files_);
+    throw;
+  }
+  if (!files.empty()) remove_empty_folders(folder);
+}
+
+OlderResults::~OlderResults() { put_back(); }
+
+void OlderResults::put_back() noexcept {
+  if (files_.empty()) return;
+  try {
+    // The record leaves last and comes back first: with it aside, all older results are, and what lies here is the new run's.
+    if (files_.back() == record_name) {
+      for (const fs::path& file : results_in(folder_)) fs::remove(folder_ / file);
+    }
+    std::reverse(files_.begin(), files_.end());
+    move_files(folder_ / set_aside, folder_, files_);
+    remove_empty_folders(folder_ / set_aside);
+  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): they stay where they are, for the next run to find
+  }
+  files_.clear();
+}
+
+void OlderResults::remove() {
+  if (files_.empty()) return;
+  files_.clear();
+  std::error_code code;
+  fs::rename(folder_ / set_aside, folder_ / removed, code);  // at once: should the program be killed now, nobody puts back a part of them
+  if (code) fail(folder_ / set_aside, "remove", code);
+  delete_removed();
+}
+
+void OlderResults::delete_removed() {
+  for (const fs::path& file : results_in(folder_ / removed)) {
+    std::error_code code;
+    if (!fs::remove(folder_ / removed / file, code) && code) fail(folder_ / removed / file, "remove", code);
+  }
+  remove_empty_folders(folder_ / removed);
+}
 
 ResultsFolder::ResultsFolder(fs::path path)
     : path_(std::move(path)), particles_(particles_series()), cracks_(cracks_series()), grid_(grid_series()) {}
 
 void ResultsFolder::check(const fs::path& path, Overwrite overwrite) {
   if (!fs::is_directory(path)) return;
-  const std::vector<fs::path> old = written_files(path);
+  std::vector<fs::path> old = written_files(path);
+  if (old.empty()) old = written_files(path / set_aside);  // where a run was killed as it started
   if (old.empty()) return;
   if (overwrite == Overwrite::replace) {
-    if (is_run_record(path / "run.json")) return;
+    if (is_run_record(path / "run.json") || is_run_record(path / set_aside / "run.json")) return;
     throw ResultsExist(
         fmt::format("{}: the folder holds {}, but no run.json of Crampon: it may be somebody else's, and is left alone; "
                     "choose another folder or remove it by hand",
@@ -87,20 +172,15 @@ void ResultsFolder::check(const fs::path& path, Overwrite overwrite) {
 
 ResultsFolder ResultsFolder::create(const fs::path& path, Overwrite overwrite) {
   check(path, overwrite);
-  if (fs::is_directory(path)) {
-    std::error_code code;
-    std::vector<fs::path> old = written_files(path);
-    if (!old.empty()) {
-      const std::vector<fs::path> pictures = drawn_pictures(path);
-      old.insert(old.end(), pictures.begin(), pictures.end());
-    }
-    for (const fs::path& file : old)
-      if (!fs::remove(file, code) && code) fail(file, "remove", code);
-    fs::remove(path / "pictures", code);
-    for (const char* series : series_names) fs::remove(path / series, code);  // stays when something else is in it
-  }
-  create_folder(path);
-  return ResultsFolder(path);
+  OlderResults older(path);
+  ResultsFolder folder = start(older);
+  older.remove();
+  return folder;
+}
+
+ResultsFolder ResultsFolder::start(const OlderResults& older) {
+  create_folder(older.folder());
+  return ResultsFolder(older.folder());
 }
 
 ResultsFolder ResultsFolder::open(const fs::path& path) {

@@ -23,6 +23,30 @@ class ResultsExist : public std::runtime_error {
 /// What to do with older results.
 enum class Overwrite { refuse, replace };
 
+/// Older results in a folder, set aside in a sub-folder of it while a new run starts there. Unless remove() is called they come back at the
+/// end of its life, in place of what the new run has written until then.
+class OlderResults {
+ public:
+  /// Files that a run writes and pictures drawn of it, and nothing else; does nothing where there are none. Throws std::runtime_error
+  /// "path: reason"; the folder is then as before.
+  explicit OlderResults(const std::filesystem::path& folder);
+  ~OlderResults();
+  OlderResults(const OlderResults&) = delete;
+  OlderResults& operator=(const OlderResults&) = delete;
+
+  /// The new run has started. Throws std::runtime_error "path: reason".
+  void remove();
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  void put_back() noexcept;
+  void delete_removed();
+
+  std::filesystem::path folder_;
+  std::vector<std::filesystem::path> files_;  // set aside, relative to the folder
+};
+
 /// Names and time series of a results folder:
 ///   particles.pvd  particles/particles_000000.vtp ...     history.csv, events.csv (when something failed)
 ///   cracks.pvd     cracks/cracks_000000.vtp ...           run.json
@@ -30,8 +54,11 @@ enum class Overwrite { refuse, replace };
 class ResultsFolder {
  public:
   /// For a run. Creates the folder and those above it. When a run wrote there before: refuse throws ResultsExist; replace removes the
-  /// files a run writes and pictures of it, and nothing else; without a run.json of Crampon it throws ResultsExist too. Throws std::runtime_error "path: reason" when that cannot be done.
+  /// files a run writes and pictures drawn of it, and nothing else; without a run.json of Crampon it throws ResultsExist too. Throws
+  /// std::runtime_error "path: reason" when that cannot be done; older results are then still there.
   static ResultsFolder create(const std::filesystem::path& path, Overwrite overwrite = Overwrite::refuse);
+  /// The same in a folder whose older results are set aside already. Throws std::runtime_error "path: reason".
+  static ResultsFolder start(const OlderResults& older);
   /// The ResultsExist that create would throw, without touching anything: to be asked before a long preparation.
   static void check(const std::filesystem::path& path, Overwrite overwrite);
   /// For reading. Throws std::runtime_error when the folder is missing or holds no results.

@@ -28,7 +28,8 @@ class Recorder {
   Recorder(const Problem& problem, const Simulation& simulation, const RunOptions& options)
       : problem_(problem),
         simulation_(simulation),
-        folder_(ResultsFolder::create(options.folder, options.overwrite)),
+        older_(checked(options)),
+        folder_(ResultsFolder::start(older_)),
         history_(folder_.history(), simulation.history_columns()),
         frames_(problem.output),
         rows_(problem.output, problem.time, simulation.end_time()) {
@@ -57,6 +58,11 @@ class Recorder {
     if (last_row_ != simulation_.steps_done()) write_row();
     seconds_ += seconds_between(start, Clock::now());
   }
+  /// Until the first frame is on disk. Only then do older results go: whatever keeps a run from starting must not cost them.
+  void finish_start() {
+    finish();
+    older_.remove();
+  }
   /// What a failed step left, as a frame only: its sums mean nothing.
   void record_wreck() { write_frame(); }
   /// Until all frames are on disk. Throws what kept one from it.
@@ -67,6 +73,11 @@ class Recorder {
   }
 
  private:
+  static const std::filesystem::path& checked(const RunOptions& options) {
+    ResultsFolder::check(options.folder, options.overwrite);
+    return options.folder;
+  }
+
   struct Frames {
     std::optional<PointFrame> particles, grid;
     std::optional<CrackFrame> cracks;
@@ -100,6 +111,7 @@ class Recorder {
 
   const Problem& problem_;
   const Simulation& simulation_;
+  OlderResults older_;  // comes back after everything below is gone
   ResultsFolder folder_;
   HistoryWriter history_;
   std::optional<HistoryWriter> events_;
@@ -143,6 +155,7 @@ void update(RunRecord& record, const Simulation& simulation, const Recorder& rec
 }  // namespace
 
 int default_threads() { return omp_get_max_threads(); }
+int core_count() { return omp_get_num_procs(); }
 
 namespace {
 
@@ -219,6 +232,7 @@ RunOutcome run_problem(const Problem& problem, Simulation& simulation, const Run
   try {
     write_run_record(recorder.folder().run_record(), record);
     recorder.record_state();
+    recorder.finish_start();
     record.status = "finished";
     while (!simulation.finished()) {
       if (options.most_steps && simulation.steps_done() >= *options.most_steps) {

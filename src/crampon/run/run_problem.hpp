@@ -45,6 +45,8 @@ struct RunOutcome {
 
 /// Threads when the user names no number: OMP_NUM_THREADS, else one per core that this process may use.
 int default_threads();
+/// Cores that this process may use.
+int core_count();
 
 /// Frames as problem.output asks, each at its time exactly, and always a first and a last one; history rows; input.original.toml and
 /// input.resolved.toml; run.json, which says "running" until the end.
