@@ -29,6 +29,7 @@ class ProblemChecker {
     if (broken("analysis")) return;
     if (!broken("grid")) check_grid();
     if (!broken("method")) check_length(problem_.method, "body_force", problem_.method.body_force.size());
+    if (!broken("method") && !broken("time")) check_damping();
     for (const BodyInput& body : problem_.bodies) check_body(body);
     for (const RigidInput& rigid : problem_.rigids) check_rigid(rigid);
     for (const WallInput& wall : problem_.walls) check_wall(wall);
@@ -119,6 +120,21 @@ class ProblemChecker {
       if (broken(fmt::format("{}[{}].name", kind, k)) || broken(list[k].location.where + ".name") || names[k].empty()) return;
     add(record, key, fmt::format("there is no {} \"{}\"", kind, name), fmt::format("it is the name of a [[{}]]", kind),
         suggest_from(name, names));
+  }
+
+  // At a thousand times, when it varies; what falls between them stops the run (step/guard.cpp).
+  void check_damping() {
+    const ValueFunction& damping = problem_.method.damping;
+    const double end = problem_.time.end.value_or(1);
+    constexpr int samples = 1000;
+    for (int k = 0; k <= (damping.depends_on_time() ? samples : 0); ++k) {
+      const double t = end * k / samples, value = damping(t, {});
+      if (!(value < 0)) continue;
+      const std::string when = damping.depends_on_time() ? fmt::format(" at t = {:.4g} s", t) : "";
+      add(problem_.method, "damping", fmt::format("the damping is {:.4g} 1/s{}", value, when),
+          "below zero it drives the motion that it is to take from", "make it zero or more");
+      return;
+    }
   }
 
   void check_shape(const Located& record, const std::string& key, const ShapePtr& shape) {

@@ -95,9 +95,19 @@ class ValueReader {
     return in_bounds(node, where, value) ? std::optional<double>(value) : std::nullopt;
   }
 
+  // Masses, energies and areas are products of up to three numbers of the input.
+  static bool is_computable(double value) { return value == 0 || (std::abs(value) >= 1e-100 && std::abs(value) <= 1e100); }
+
   bool in_bounds(const toml::node& node, const std::string& where, double value) {
-    if (entry_.bounds.contains(value)) return true;
-    const std::string shown_unit = unit_ == "1" || unit_ == "any" ? "" : " " + unit_;
+    const bool physical = unit_ != "1" && unit_ != "any";
+    const std::string shown_unit = physical ? " " + unit_ : "";
+    if (entry_.bounds.contains(value)) {
+      if (!physical || !std::isfinite(value) || is_computable(value)) return true;
+      complain(node, where, fmt::format("{}{} cannot be computed with", value, shown_unit),
+               "products of numbers below 1e-100 or above 1e100 are lost",
+               entry_.bounds.infinite ? "correct it; inf stands for no limit" : "correct it");
+      return false;
+    }
     if (!std::isfinite(value)) {
       complain(node, where, fmt::format("{} is not a usable value", std::isnan(value) ? "nan" : "inf"), "a finite number is needed",
                fmt::format("write for example {}", example()));

@@ -9,6 +9,7 @@
 #include "crampon/core/error.hpp"
 #include "crampon/output/quantity.hpp"
 #include "crampon/run/build_model.hpp"
+#include "crampon/run/check_memory.hpp"
 #include "crampon/run/notes/notes.hpp"
 #include "crampon/run/sample.hpp"
 #include "crampon/shape/bspline.hpp"
@@ -34,6 +35,7 @@ class Engine final : public Simulation {
     state_ = std::move(built.state);
     if (time_.end) end_ = *time_.end;
     time_step_ = time_.step ? *time_.step : time_.courant * stable_time_step();
+    refuse_endless_run(problem);
     place_probes(problem);
     initial_energy_ = energy();
     cracked_ = std::move(built.cracked);
@@ -302,6 +304,23 @@ class Engine final : public Simulation {
     }
   }
 
+  /// Steps are counted, and none may vanish beside the time that has passed. A run of so many steps would not end in a lifetime.
+  void refuse_endless_run(const Problem& problem) const {
+    constexpr double most_steps = 1e12;
+    if (!time_.end || end_ / time_step_ <= most_steps) return;
+    std::string why = fmt::format("the time step is {:.3g} s", time_step_);
+    double fastest = 0;
+    for (const MaterialInput& in : problem.materials) {
+      const double speed = in.law->wave_speed(model_.stress_state);
+      if (time_.step || speed < fastest) continue;
+      fastest = speed;
+      why = fmt::format("waves in \"{}\" run at {:.3g} m/s through cells of {:.3g} m, so the time step is {:.3g} s", in.name, speed,
+                        model_.grid.smallest_cell(), time_step_);
+    }
+    throw InputError({{time_.at("end"), fmt::format("{:.3g} s take {:.3g} time steps", end_, end_ / time_step_), why,
+                       time_.step ? "correct end or step" : "correct end, the material or the cells"}});
+  }
+
   /// Smallest cell over fastest wave (kinematics.md 12); laws whose waves change with strain are asked for the present speed.
   double stable_time_step() {
     double fastest = 0;
@@ -418,6 +437,7 @@ std::unique_ptr<Simulation> create_in(const Problem& problem, int threads) {
 }  // namespace
 
 std::unique_ptr<Simulation> Simulation::create(const Problem& problem, int threads) {
+  check_memory(problem);
   return problem.dimension() == 3 ? create_in<3>(problem, threads) : create_in<2>(problem, threads);
 }
 

@@ -38,8 +38,8 @@ struct LoadSummary {
 
 class Simulation {
  public:
-  /// Builds particles, cracks and grid. threads <= 0: all cores. Throws InputError for what only building can find
-  /// (empty body, particle or crack outside the grid).
+  /// Builds particles, cracks and grid. threads <= 0: all cores. Throws InputError for what does not fit into memory, before anything is
+  /// built, for more steps than can be done, and for what only building can find (empty body, particle or crack outside the grid).
   static std::unique_ptr<Simulation> create(const Problem& problem, int threads = 0);
   virtual ~Simulation() = default;
 

@@ -118,6 +118,12 @@ void check_prescribed(const State<Dim>& state, const Model<Dim>& model, const st
   for (std::size_t l = 0; l < load_values.size(); ++l) need(is_finite(load_values[l]), "the value of", model.loads[l].name);
   need(is_finite(body_force), "the body force", "");
   need(std::isfinite(damping), "the damping", "");
+  if (damping < 0) {
+    throw RunError(
+        fmt::format("step {} (t = {:.6g} s): the damping is {:.4g} 1/s, and below zero it drives the motion; correct the table or "
+                    "expression that gives it",
+                    state.step + 1, state.time, damping));
+  }
 }
 
 template <int Dim, class Shape>

@@ -5,7 +5,7 @@
 namespace crampon {
 
 /// Looks at what the input prescribes for this step: motion of rigid bodies, velocities on nodes, loads, body force, damping. Throws RunError
-/// that names the first that is not a number.
+/// that names the first that is not a number, and for damping below zero.
 template <int Dim>
 void check_prescribed(const State<Dim>& state, const Model<Dim>& model, const std::vector<Vec<Dim>>& load_values,
                       const Vec<Dim>& body_force, double damping);
