@@ -3,17 +3,18 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=build/release/bin/crampon
-page=docs/reference/input.md
-schema=docs/reference/input.schema.json
-if [ "${1:-}" = --fix ]; then
-  mkdir -p docs/reference
-  "$program" reference >"$page"
-  "$program" schema >"$schema"
-  exit 0
-fi
+folder=docs/reference
+pages=("reference input.md" "schema input.schema.json" "quantities output.md")
 stale=0
-diff -u "$page" <("$program" reference) || stale=1
-diff -u "$schema" <("$program" schema) || stale=1
+for page in "${pages[@]}"; do
+  read -r subcommand file <<<"$page"
+  if [ "${1:-}" = --fix ]; then
+    mkdir -p "$folder"
+    "$program" "$subcommand" >"$folder/$file"
+  else
+    diff -u "$folder/$file" <("$program" "$subcommand") || stale=1
+  fi
+done
 if [ $stale = 1 ]; then
   echo "docs/reference is stale; mend it with: cmake/check_generated.sh --fix" >&2
   exit 1

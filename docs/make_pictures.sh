@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 results=${1:-results}
-run() { ./run.sh "examples/${3:-paper}/$1.toml" --output "$results/$2" --force --quiet "${@:4}"; }
+run() { ./run.sh "examples/${3:-paper}/$1.toml" --output "$results/$2" --force --quiet --no-check "${@:4}"; }
 draw() { ./run.sh draw "$results/$1" "${@:2}"; }
 
 run dcb dcb

@@ -28,7 +28,7 @@ constexpr const char* examples = R"(Examples:
   crampon draw crack.results --quantity stress_yy --magnify 20
   crampon draw crack.results --history kinetic_energy strain_energy
 
-Exit codes: 0 done, 1 a check missed, 2 wrong input or usage, 3 the run stopped, 4 system error, 130 interrupted.)";
+Exit codes: 0 done, 1 an expected number missed, 2 wrong input or usage, 3 the run stopped, 4 system error, 130 interrupted.)";
 
 /// CLI11 tells nothing about a misspelt subcommand, so the first word that is no option is looked up before it parses.
 void check_subcommand(const CLI::App& app, int argc, const char* const* argv) {
@@ -56,7 +56,8 @@ void add_settings(CLI::App& sub, std::vector<std::string>& settings, int& thread
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
-  sub.add_option("-j,--threads", threads, "number of threads; left out: one per core. The results are the same for any number")
+  sub.add_option("-j,--threads", threads,
+                 "number of threads, one per core at most; left out: one per core. The results are the same for any number")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
 }
@@ -83,8 +84,10 @@ int run_command_line(int argc, const char* const* argv) {
   add_settings(*sub, run.settings, run.threads);
   sub->add_option("--steps", run.steps, "end after so many steps, to try an input")->type_name("N")->check(positive);
   sub->add_flag("-f,--force", run.force, "replace older results in the folder");
+  sub->add_flag("--no-check", run.no_check, "do not compare the results with the [[expect]] entries of the input");
   sub->add_flag("-q,--quiet", run.quiet, "print errors only");
-  sub->footer("Example: crampon run crack.toml --set time.end=\"1 ms\" --output longer.results");
+  sub->footer(
+      "Exits with 1 when an expected number misses. Example: crampon run crack.toml --set time.end=\"1 ms\" --output longer.results");
 
   ValidateArguments validate;
   sub = app.add_subcommand("validate", "check an input file and tell what would run");
@@ -102,7 +105,7 @@ int run_command_line(int argc, const char* const* argv) {
   InfoArguments info;
   sub = app.add_subcommand("info", "tell what a results folder holds");
   sub->add_option("results", info.results, "results folder")->required()->type_name("RESULTS");
-  sub->add_flag("--hash", info.hash, "print only the hash of the final state: equal hashes, equal bits");
+  sub->add_flag("--hash", info.hash, "print only a hash of the last frames as they lie on disk: equal hashes, equal numbers");
   sub->footer("Example: crampon info crack.results");
 
   DrawArguments draw;
@@ -168,6 +171,7 @@ int run_command_line(int argc, const char* const* argv) {
 
   app.add_subcommand("schema", "print the JSON Schema of input files, for editors");
   app.add_subcommand("reference", "print the reference page of input files (Markdown)");
+  app.add_subcommand("quantities", "print what a run writes: particle quantities, history columns (Markdown)");
   for (CLI::App* each : app.get_subcommands([](CLI::App*) { return true; })) each->set_help_flag("-h,--help", "print this help and exit");
 
   check_subcommand(app, argc, argv);
@@ -192,6 +196,7 @@ int run_command_line(int argc, const char* const* argv) {
   if (app.got_subcommand("check")) return check_command(check);
   if (app.got_subcommand("schema")) return schema_command();
   if (app.got_subcommand("reference")) return reference_command();
+  if (app.got_subcommand("quantities")) return quantities_command();
   fmt::print("{}", app.help());
   return exit_ok;
 }

@@ -32,6 +32,7 @@ struct RunArguments {
   int threads = 0;
   std::optional<std::int64_t> steps;  ///< end after so many
   bool force = false, quiet = false;
+  bool no_check = false;  ///< do not compare with what is expected
 };
 int run_command(const RunArguments& arguments);
 
@@ -89,6 +90,12 @@ int check_command(const CheckArguments& arguments);
 
 int schema_command();
 int reference_command();
+int quantities_command();
+
+/// Threads to use: as many as asked for (0: default_threads()), but no more than there are cores for this process.
+int usable_threads(int asked);
+/// Why fewer threads are used than were asked for, by option or environment; empty when they are not.
+std::string threads_note(int asked);
 
 /// Reads the arguments and calls a subcommand. Returns the exit code; throws what the subcommand throws.
 int run_command_line(int argc, const char* const* argv);

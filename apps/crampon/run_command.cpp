@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 
@@ -44,14 +45,13 @@ void print_start(const Problem& problem, const Simulation& simulation, int threa
   std::fflush(stdout);
 }
 
-void print_end(const Problem& problem, const Simulation& simulation, const RunOutcome& outcome) {
+void print_end(const Simulation& simulation, const RunOutcome& outcome, const std::vector<CheckRow>& rows) {
   const RunRecord& record = outcome.record;
   fmt::print("{} after {} steps at t = {:.6g} s, in {} ({:.2f} million particle-steps per second)\n",
              record.status.substr(0, record.status.find(':')), count_text(static_cast<double>(record.steps)), record.end_time,
              duration_text(record.wall_seconds), record.particle_steps_per_second * 1e-6);
   print_notes(simulation.notes());
-  if (outcome.end == RunOutcome::End::finished && !problem.expects.empty())
-    fmt::print("\n{}", check_table(check_results(ResultsFolder::open(outcome.folder), problem)));
+  if (!rows.empty()) fmt::print("\n{}", check_table(rows));
   const std::string folder = shell_quoted(outcome.folder.string());
   fmt::print("\nResults are in {}\n", styled(stdout, Style::bold, folder));
   fmt::print("  pictures:  {} draw {}\n", command_name(), folder);
@@ -66,7 +66,7 @@ int run_command(const RunArguments& arguments) {
   RunOptions options;
   options.folder = arguments.output.empty() ? std::filesystem::path(arguments.input).stem().string() + ".results" : arguments.output;
   options.overwrite = arguments.force ? Overwrite::replace : Overwrite::refuse;
-  options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
+  options.threads = usable_threads(arguments.threads);
   options.input = arguments.input;
   options.most_steps = arguments.steps;
   options.interrupt = &interrupted;
@@ -76,6 +76,7 @@ int run_command(const RunArguments& arguments) {
   ProgressLine progress;
   if (!arguments.quiet) {
     print_start(problem, *simulation, options.threads);
+    if (const std::string note = threads_note(arguments.threads); !note.empty()) print_notes({note});
     options.progress = [&progress](const Progress& p) { progress.show(p); };
   }
   RunOutcome outcome;
@@ -90,7 +91,9 @@ int run_command(const RunArguments& arguments) {
   }
   progress.finish();
 
-  if (!arguments.quiet) print_end(problem, *simulation, outcome);
+  std::vector<CheckRow> rows;
+  if (outcome.end == RunOutcome::End::finished && !arguments.no_check) rows = check_results(ResultsFolder::open(outcome.folder), problem);
+  if (!arguments.quiet) print_end(*simulation, outcome, rows);
   switch (outcome.end) {
     case RunOutcome::End::stopped: {
       const std::string where = (outcome.folder / "particles.pvd").string();
@@ -102,8 +105,13 @@ int run_command(const RunArguments& arguments) {
       fmt::print(stderr, "crampon: interrupted at t = {:.6g} s; the state there is the last frame\n", outcome.record.end_time);
       return exit_interrupted;
     default:
-      return exit_ok;
+      break;
   }
+  const auto missed = std::count_if(rows.begin(), rows.end(), [](const CheckRow& row) { return row.verdict != Verdict::met; });
+  if (missed == 0) return exit_ok;
+  fmt::print(stderr, "{} {} of {} expected numbers missed; `{} check {}` shows them\n", styled(stderr, Style::red, "crampon:"), missed,
+             rows.size(), command_name(), shell_quoted(outcome.folder.string()));
+  return exit_check_missed;
 }
 
 }  // namespace crampon::app

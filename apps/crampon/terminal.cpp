@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "commands.hpp"
+
 namespace crampon::app {
 
 bool is_terminal(std::FILE* stream) { return ::isatty(::fileno(stream)) == 1; }
@@ -83,6 +85,16 @@ std::string shell_quoted(const std::string& path) {
   std::string out = "'";
   for (const char c : path) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
+}
+
+int usable_threads(int asked) { return std::min(asked > 0 ? asked : default_threads(), core_count()); }
+
+std::string threads_note(int asked) {
+  const int wanted = asked > 0 ? asked : default_threads();
+  if (wanted <= core_count()) return "";
+  return fmt::format(
+      "{} threads are asked for ({}), but this process has {} core{}: more threads would only wait for each other; it uses {}", wanted,
+      asked > 0 ? "--threads" : "OMP_NUM_THREADS", core_count(), core_count() == 1 ? "" : "s", core_count());
 }
 
 void print_notes(const std::vector<std::string>& notes) {

@@ -10,7 +10,7 @@ namespace crampon::app {
 
 int validate_command(const ValidateArguments& arguments) {
   const Problem problem = read_problem(arguments.input, arguments.settings);
-  const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
+  const int threads = usable_threads(arguments.threads);
   const auto simulation = Simulation::create(problem, threads);
   check_against_simulation(problem, *simulation);
   const SimulationSize size = simulation->size();
@@ -28,7 +28,8 @@ int validate_command(const ValidateArguments& arguments) {
   line("time step", fmt::format("{:.6g} s", size.time_step));
   line("end time", fmt::format("{:.6g} s", end_time));
   line("memory", bytes_text(size.memory_bytes));
-  const std::vector<std::string> notes = simulation->notes_at_start();
+  std::vector<std::string> notes = simulation->notes_at_start();
+  if (std::string note = threads_note(arguments.threads); !note.empty()) notes.push_back(std::move(note));
   print_notes(notes);
   std::fflush(stdout);
 

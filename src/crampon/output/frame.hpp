@@ -23,10 +23,11 @@ struct PointFrame {
   double time = 0;  ///< s
   std::int64_t step = 0;
   int dimension = 2;
-  Numbers positions;          ///< 3 per point, m
-  std::vector<Field> fields;  ///< particles always have "id" and "body"
-  double cell = 0;            ///< grid spacing, m (largest axis), for drawing
-  Numbers particle_size;      ///< edge lengths of an undeformed particle, 3 per point, m; may be empty (nodes)
+  Numbers positions;                    ///< 3 per point, m
+  std::vector<Field> fields;            ///< particles always have "id" and "body"
+  std::vector<std::string> body_names;  ///< what the numbers in "body" stand for; empty for nodes
+  double cell = 0;                      ///< grid spacing, m (largest axis), for drawing
+  Numbers particle_size;                ///< edge lengths of an undeformed particle, 3 per point, m; may be empty (nodes)
 };
 
 /// All cracks at one time. Vertices of crack k are [begin[k], begin[k + 1]).

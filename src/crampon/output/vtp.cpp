@@ -17,6 +17,7 @@ namespace {
 constexpr const char* size_name = "particle_size";
 constexpr const char* original_name = "original_position";
 constexpr const char* names_name = "crack_names";
+constexpr const char* bodies_name = "body_names";
 
 // Labels must survive single precision, which holds whole numbers only up to 2^24.
 bool is_label(const Field& field) {
@@ -63,6 +64,7 @@ PointFrame point_frame(PolyData&& data) {
   frame.dimension = static_cast<int>(scalar(data, "dimension"));
   frame.cell = scalar(data, "cell");
   frame.positions = std::move(data.points.values);
+  if (data.string_name == bodies_name) frame.body_names = std::move(data.strings);
   for (Field& a : data.point_data) {
     if (a.name == size_name)
       frame.particle_size = std::move(a.values);
@@ -108,6 +110,10 @@ void write_vtp(const std::filesystem::path& path, PointFrame frame, Precision pr
   PolyData data;
   data.field_data = {real_scalar("TimeValue", "s", frame.time), whole_scalar("step", static_cast<double>(frame.step)),
                      whole_scalar("dimension", frame.dimension), real_scalar("cell", "m", frame.cell)};
+  if (!frame.body_names.empty()) {
+    data.string_name = bodies_name;
+    data.strings = std::move(frame.body_names);
+  }
   data.vertices = frame.positions.size() / 3;
   data.points = real_array("Points", "m", 3, std::move(frame.positions), precision);
   for (Field& field : frame.fields) data.point_data.push_back(typed(std::move(field), precision));

@@ -62,10 +62,7 @@ struct Sample {
 };
 
 struct Quantity {
-  const char* name;
-  const char* unit;
-  int components;
-  bool common;
+  QuantityDescription is;
   std::function<void(const Sample&, double*)> get;
 };
 
@@ -73,26 +70,37 @@ double mean_stress(const Sample& s) { return (s.stress[0] + s.stress[1] + s.stre
 
 const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> list = {
-      {"velocity", "m/s", 3, true, [](const Sample& s, double* o) { std::copy_n(s.v.c.data(), 3, o); }},
-      {"displacement", "m", 3, true,
+      {{"velocity", "m/s", 3, true, "velocity", "v"}, [](const Sample& s, double* o) { std::copy_n(s.v.c.data(), 3, o); }},
+      {{"displacement", "m", 3, true, "way from where the particle began", "u = x - X"},
        [](const Sample& s, double* o) {
          for (std::size_t k = 0; k < 3; ++k) o[k] = s.x[k] - s.X[k];
        }},
-      {"stress", "Pa", 6, true, [](const Sample& s, double* o) { std::copy_n(s.stress, 6, o); }},
-      {"strain", "1", 6, false, [](const Sample& s, double* o) { std::copy_n(s.strain, 6, o); }},
-      {"pressure", "Pa", 1, false, [](const Sample& s, double* o) { *o = -mean_stress(s); }},
-      {"von_mises", "Pa", 1, false,
+      {{"stress", "Pa", 6, true, "Cauchy stress, tension positive", "sigma = tau / J, tau by the law of the material"},
+       [](const Sample& s, double* o) { std::copy_n(s.stress, 6, o); }},
+      {{"strain", "1", 6, false, "strain as the law of the material measures it; tensor components, not engineering shear",
+        "small strain: sum of (grad v + grad v^T) dt / 2; large rotation: U - I; neo-Hookean: (F F^T - I) / 2"},
+       [](const Sample& s, double* o) { std::copy_n(s.strain, 6, o); }},
+      {{"pressure", "Pa", 1, false, "mean pressure, compression positive", "p = -(sigma_xx + sigma_yy + sigma_zz) / 3"},
+       [](const Sample& s, double* o) { *o = -mean_stress(s); }},
+      {{"von_mises", "Pa", 1, false, "equivalent stress", "sqrt(3/2 s:s), s = sigma + p I"},
        [](const Sample& s, double* o) {
          const double m = mean_stress(s);
          double square = 0;
          for (int k = 0; k < 3; ++k) square += (s.stress[k] - m) * (s.stress[k] - m) + 2 * s.stress[3 + k] * s.stress[3 + k];
          *o = std::sqrt(1.5 * square);
        }},
-      {"energy_density", "J/m3", 1, false, [](const Sample& s, double* o) { *o = s.energy; }},
-      {"volume", "m3", 1, false, [](const Sample& s, double* o) { *o = s.volume * s.volume_ratio; }},
-      {"mass", "kg", 1, false, [](const Sample& s, double* o) { *o = s.mass; }},
-      {"density", "kg/m3", 1, false, [](const Sample& s, double* o) { *o = s.mass / (s.volume * s.volume_ratio); }},
-      {"material", "1", 1, false, [](const Sample& s, double* o) { *o = s.material; }},
+      {{"energy_density", "J/m3", 1, false, "strain energy per initial volume", "W by the law of the material"},
+       [](const Sample& s, double* o) { *o = s.energy; }},
+      {{"volume", "m3", 1, false, "present volume, in 2D with the thickness of the body", "J V_0"},
+       [](const Sample& s, double* o) { *o = s.volume * s.volume_ratio; }},
+      {{"mass", "kg", 1, false, "mass, which stays the same", "m"}, [](const Sample& s, double* o) { *o = s.mass; }},
+      {{"density", "kg/m3", 1, false, "present density", "m / (J V_0)"},
+       [](const Sample& s, double* o) { *o = s.mass / (s.volume * s.volume_ratio); }},
+      {{"material", "1", 1, false,
+        "number of the material, from 0 in the order of bodies; it counts again where bodies of it differ in thickness, particle size or "
+        "field",
+        ""},
+       [](const Sample& s, double* o) { *o = s.material; }},
   };
   return list;
 }
@@ -136,16 +144,22 @@ class Hash {
 
 }  // namespace
 
+std::vector<QuantityDescription> describe_particle_quantities() {
+  std::vector<QuantityDescription> all;
+  for (const Quantity& q : quantities()) all.push_back(q.is);
+  return all;
+}
+
 std::vector<std::string> particle_quantity_names() {
   std::vector<std::string> names;
-  for (const Quantity& q : quantities()) names.emplace_back(q.name);
+  for (const Quantity& q : quantities()) names.push_back(q.is.name);
   return names;
 }
 
 std::vector<std::string> common_quantity_names() {
   std::vector<std::string> names;
   for (const Quantity& q : quantities()) {
-    if (q.common) names.emplace_back(q.name);
+    if (q.is.common) names.push_back(q.is.name);
   }
   return names;
 }
@@ -154,7 +168,7 @@ template <int Dim>
 PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, const std::vector<std::string>& names, Precision precision) {
   std::vector<const Quantity*> wanted;
   for (const std::string& name : names.empty() ? common_quantity_names() : names) {
-    const auto at = std::find_if(quantities().begin(), quantities().end(), [&](const Quantity& q) { return name == q.name; });
+    const auto at = std::find_if(quantities().begin(), quantities().end(), [&](const Quantity& q) { return name == q.is.name; });
     if (at == quantities().end()) throw std::invalid_argument("there is no particle quantity \"" + name + "\"");
     wanted.push_back(&*at);
   }
@@ -167,6 +181,7 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
   frame.time = state.time;
   frame.step = state.step;
   frame.dimension = Dim;
+  frame.body_names = model.bodies;
   for (int k = 0; k < Dim; ++k) frame.cell = std::fmax(frame.cell, model.grid.cell[k]);
   frame.positions = numbers(3);
   const auto size_of = [&](const Material<Dim>& m) {
@@ -179,7 +194,7 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
   frame.particle_size = one_size ? Numbers::repeated(real_type(precision), rows.count, size_of(model.materials[0])) : numbers(3);
   frame.fields.push_back({"id", "1", 1, Numbers::labels<std::uint32_t>(rows.count)});
   frame.fields.push_back({"body", "1", 1, Numbers::labels<std::uint16_t>(rows.count)});
-  for (const Quantity* q : wanted) frame.fields.push_back({q->name, q->unit, q->components, numbers(q->components)});
+  for (const Quantity* q : wanted) frame.fields.push_back({q->is.name, q->is.unit, q->is.components, numbers(q->is.components)});
   parallel_for(state.blocks.runs.size(), model.threads, [&](std::size_t r) {
     const Run& run = state.blocks.runs[r];
     const Material<Dim>& material = model.materials[run.material];

@@ -7,6 +7,14 @@
 
 namespace crampon {
 
+/// A particle quantity as users meet it.
+struct QuantityDescription {
+  std::string name, unit;
+  int components = 1;   ///< 1, 3 (x, y, z) or 6 (xx, yy, zz, xy, yz, xz)
+  bool common = false;  ///< written unless the input chooses
+  std::string meaning, formula;
+};
+std::vector<QuantityDescription> describe_particle_quantities();
 std::vector<std::string> particle_quantity_names();
 std::vector<std::string> common_quantity_names();
 

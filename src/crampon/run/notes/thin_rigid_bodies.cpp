@@ -36,6 +36,8 @@ void note_thin_rigid_bodies(const Start<Dim>& start, Notes& notes) {
     const RigidInput& in = start.problem.rigids[r];
     // A rigid boundary holds the nodes that it reaches, however thin it is.
     if (in.role == RigidInput::Role::boundary) continue;
+    // One that is known by a formula meets bodies at its faces, whatever nodes are beside it.
+    if (start.model.rigid_bodies[r].wall) continue;
     const BodySpace<Dim>& body = start.bodies[start.problem.bodies.size() + r];
     const double thickness = thickness_of(body);
     if (thickness > h * (1 - 1e-6)) continue;
