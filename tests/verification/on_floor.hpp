@@ -26,7 +26,9 @@ struct OnFloor {
   double width = 0.032, height = 0.008, cell = 0.002;  // m
   double E = 1e6, nu = 0.3;                            // Pa
   std::string shape_functions = "bspline";
-  std::string floor = "wall";  ///< or rigid, or a deformable body
+  std::string floor = "wall";         ///< or rigid, or a deformable body
+  double floor_stiffness = 1;         ///< of a deformable floor, over that of the body; so is its density
+  bool floor_normal_is_given = true;  ///< ... and whether contact is told that it is level
   std::string law = "\"frictionless\"";
   std::string gravity_x = "0", gravity_y = fmt::format("{}", -g);  // m/s2
   std::string damping = "0";                                       // 1/s
@@ -79,12 +81,14 @@ density = 1000
     if (s.floor == "rigid") {
       text += "[[rigid]]\nname = \"floor\"\n" + shape;
     } else {
-      text += fmt::format("[[material]]\nname = \"base\"\nlaw = \"elastic_large_rotation\"\nE = {}\nnu = {}\ndensity = 1000\n", s.E, s.nu);
+      text += fmt::format("[[material]]\nname = \"base\"\nlaw = \"elastic_large_rotation\"\nE = {}\nnu = {}\ndensity = {}\n",
+                          s.floor_stiffness * s.E, s.nu, s.floor_stiffness * 1000);
       text += "[[body]]\nname = \"floor\"\nmaterial = \"base\"\n" + shape;
       text += fmt::format(
           "[[boundary]]\nname = \"hold\"\nregion = {{ kind = \"rectangle\", low = [{}, {}], high = [{}, {}] }}\nvx = 0\nvy = 0\n", low_x,
           -deep, high_x, -deep);
-      text += fmt::format("[[contact_pair]]\nbetween = [\"body\", \"floor\"]\ncontact = {}\nnormal = [0, -1]\n", s.law);
+      text += fmt::format("[[contact_pair]]\nbetween = [\"body\", \"floor\"]\ncontact = {}\n{}", s.law,
+                          s.floor_normal_is_given ? "normal = [0, -1]\n" : "");
     }
   }
   return text + s.more;

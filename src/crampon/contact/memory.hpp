@@ -22,7 +22,8 @@ struct ContactName {
   CrackId crack = no_crack;
   std::uint16_t field_a = 0, field_b = 0;  ///< material fields; 0 for faces of a crack
   Signature others;
-  Signature rest;  ///< cracks between the two besides `crack`
+  Signature rest;         ///< cracks between the two besides `crack`
+  std::uint8_t face = 0;  ///< 1 and more: of a corner in which one body meets the other by several faces
   bool between_materials() const { return crack == no_crack; }
   auto operator<=>(const ContactName&) const = default;
 };

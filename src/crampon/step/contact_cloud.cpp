@@ -59,7 +59,8 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
               CloudPoint<Dim> point;
               point.layer = layer_here[t.layer];
               point.x = state.particles.position(p);
-              point.m = state.particles.mass(p) * stencil.weight(n, l);
+              point.S = stencil.weight(n, l);
+              point.m = state.particles.mass(p) * point.S;
               for (int k = 0; k < Dim; ++k) {
                 point.half_size[k] = material.half_size[k] * model.grid.cell[k];
                 for (int d = 0; d < Dim; ++d) point.F[k][d] = F[d * Dim + k][l];

@@ -15,6 +15,7 @@ struct CloudPoint {
   int layer = 0;                  ///< of the node's block
   GroupSet group = 0;             ///< at the node; set by who knows the groups
   Vec<Dim> x;                     ///< from the node, m; of a folded pair the mirror image
+  double S = 0;                   ///< S_ip
   double m = 0;                   ///< m_p S_ip, kg
   std::array<Vec<Dim>, Dim> F{};  ///< columns of its deformation gradient
   Vec<Dim> half_size;             ///< of the particle at the start, m

@@ -17,6 +17,14 @@ namespace {
 /// more than what positions err by: at one lie the nodes of bodies aligned with the grid.
 constexpr double deepest_held = 0.99;
 
+/// Of a particle in regressions. Particles come into the reach of a node, and leave it, without a jump: those of uGIMP, two per cell, lie at
+/// its very end, and normals that turned by some degrees with every tremor kept bodies trembling. The root of a product is one of roots:
+/// rows along a face stay equal to each other but for a factor, and none tilts the normal.
+template <int Dim>
+double regression_weight(const CloudPoint<Dim>& point) {
+  return std::sqrt(point.S);
+}
+
 /// f(point, side) for the particles of both faces about a node.
 template <int Dim, class F>
 void for_points(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, F f) {
@@ -72,6 +80,62 @@ bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Di
     pair.area = (b.rigid ? area_on_rigid(a, b, depth, pair.n, plane) : area_between(a, b, pair.n)) / place.mirrors.images;
   look_back(place, a, b, pair);
   return true;
+}
+
+template <int Dim>
+void FaceToFace<Dim>::part_corner(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b,
+                                  std::vector<ContactPair<Dim>>& pairs) {
+  const ContactPair<Dim> whole = pairs.back();
+  const bool by_regression =
+      model_.contact.normal == ContactNormal::logistic_regression || model_.contact.normal == ContactNormal::linear_regression;
+  const bool given = model_.field_normals[std::size_t{a.field} * model_.fields.size() + b.field] != Vec<Dim>{};
+  const ContactDetection detection = model_.contact.material_detection;
+  // Where particles were at the start is known of all of a body alone.
+  const bool looks_back = std::holds_alternative<InterfaceContact>(*whole.law) || detection == ContactDetection::displacement;
+  if (!by_regression || given || a.rigid || b.rigid || looks_back) return;
+  corner_points_.clear();
+  for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) {
+    corner_points_.push_back({point.x, point.half_edges(), regression_weight(point), side});
+  });
+  const std::vector<CornerFace<Dim>> faces = find_corner<Dim>(corner_points_, whole.n, model_.grid.cell);
+  if (faces.empty()) return;
+  pairs.pop_back();
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    ContactPair<Dim> pair = whole;
+    pair.name.face = static_cast<std::uint8_t>(f + 1);
+    pair.n = normalized(place.mirrors.mean(faces[f].n));
+    if (pair.n == Vec<Dim>{}) continue;
+    const auto [part_of_a, part_of_b] = before(place, a, b, faces[f]);
+    if (detection == ContactDetection::regression) {
+      RegressionGap<Dim> outlines(pair.n);
+      for (std::size_t i = 0; i < corner_points_.size(); ++i) {
+        if (faces[f].is_before[i]) outlines.add(corner_points_[i].x, corner_points_[i].half_edges, corner_points_[i].side);
+      }
+      pair.gap = outlines.gap();
+    } else {
+      pair.gap = gap(detection, place, part_of_a, part_of_b, pair, pair.n);
+    }
+    if (needs_area(*pair.law)) pair.area = area_between(part_of_a, part_of_b, pair.n) / place.mirrors.images;
+    pairs.push_back(pair);
+  }
+}
+
+/// The parts of a and b that lie before one face of a corner.
+template <int Dim>
+std::pair<Face<Dim>, Face<Dim>> FaceToFace<Dim>::before(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b,
+                                                        const CornerFace<Dim>& face) const {
+  std::pair<Face<Dim>, Face<Dim>> parts{a, b};
+  for (Face<Dim>* part : {&parts.first, &parts.second}) part->m = 0, part->x = {};
+  std::size_t i = 0;
+  for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) {
+    if (!face.is_before[i++]) return;
+    Face<Dim>& part = side == ContactSide::a ? parts.first : parts.second;
+    part.m += point.m;
+    part.x += point.x * point.m;
+  });
+  parts.first.volume *= parts.first.m / a.m;
+  parts.second.volume *= parts.second.m / b.m;
+  return parts;
 }
 
 /// What the law asks of the past: on the side of the lower field, above a crack (docs/theory/contact.md, laws).
@@ -204,6 +268,58 @@ double FaceToFace<Dim>::gap(ContactDetection detection, const MeetingPlace<Dim>&
   return gap_by_volume(pair.volume_ratio);
 }
 
+/// The plane that parts the particles of two sets of groups best.
+template <int Dim>
+std::optional<Vec<Dim>> FaceToFace<Dim>::regress(const MeetingPlace<Dim>& place, GroupSet a, GroupSet b) {
+  labelled_.clear();
+  for (const CloudPoint<Dim>& point : *place.points) {
+    if (!((a | b) & point.group)) continue;
+    LabelledPoint<Dim> labelled;
+    for (int k = 0; k < Dim; ++k) labelled.x[k] = point.x[k] * model_.grid.inverse_cell[k];
+    labelled.side = a & point.group ? ContactSide::a : ContactSide::b;
+    labelled.weight = regression_weight(point);
+    labelled_.push_back(labelled);
+  }
+  return model_.contact.normal == ContactNormal::logistic_regression ? logistic_regression_normal<Dim>(labelled_, model_.grid.cell)
+                                                                     : linear_regression_normal<Dim>(labelled_, model_.grid.cell);
+}
+
+/// Do a and b fill what the node sees between them? Then their outlines are each other's, and their gradients add up to nothing.
+template <int Dim>
+bool FaceToFace<Dim>::are_alone(const Face<Dim>& a, const Face<Dim>& b) const {
+  const bool third_body = (a.company & ~(a.groups | b.groups)) != 0;
+  return !third_body && norm(a.g + b.g) < 0.1 * std::fmax(norm(a.g), norm(b.g));
+}
+
+/// With a third body or empty space at hand, neither the outline of a body nor the plane between the two need be the face between them: at
+/// the corner of four blocks each shows two faces, and beside the end of a block on a long floor, or on a third, that plane slants. Of all
+/// that may be right, that which leaves the widest gap between the particles of both; the first of those about as good.
+template <int Dim>
+Vec<Dim> FaceToFace<Dim>::normal_among_others(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b) {
+  const GroupSet others = a.company & ~(a.groups | b.groups);
+  // Beside empty space the plane between both is good but for a few degrees, and outlines of rows of particles that slant are rough.
+  const double clearly_wider = others ? 1e-6 : 0.03;  // cells
+  Vec<Dim> best;
+  double widest = -std::numeric_limits<double>::infinity();
+  const auto try_normal = [&](const Vec<Dim>& n) {
+    if (n == Vec<Dim>{}) return;
+    RegressionGap<Dim> gap(n);
+    for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) { gap.add(point.x, point.half_edges(), side); });
+    if (gap.gap() > widest + clearly_wider * model_.grid.smallest_cell()) widest = gap.gap(), best = n;
+  };
+  try_normal(regress(place, a.groups, b.groups).value_or(Vec<Dim>{}));
+  if (others) {
+    try_normal(regress(place, a.groups, a.company & ~a.groups).value_or(Vec<Dim>{}));
+    try_normal(regress(place, b.company & ~b.groups, b.groups).value_or(Vec<Dim>{}));
+  }
+  try_normal(gradient_normal<Dim>(GradientNormal::largest_gradient, {a.g, a.volume, a.rigid}, {b.g, b.volume, b.rigid},
+                                  model_.contact.rigid_bias));
+  try_normal(normalized(a.g));
+  try_normal(normalized(-b.g));
+  try_normal(normalized(a.g * b.volume - b.g * a.volume));  // how the part of a in both changes: without the outline they have in common
+  return best;
+}
+
 template <int Dim>
 Vec<Dim> FaceToFace<Dim>::found_normal(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b) {
   GradientNormal gradient = GradientNormal::largest_gradient;
@@ -213,17 +329,8 @@ Vec<Dim> FaceToFace<Dim>::found_normal(const MeetingPlace<Dim>& place, const Fac
   switch (model_.contact.normal) {
     case ContactNormal::logistic_regression:
     case ContactNormal::linear_regression: {
-      labelled_.clear();
-      for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) {
-        LabelledPoint<Dim> labelled;
-        for (int k = 0; k < Dim; ++k) labelled.x[k] = point.x[k] * model_.grid.inverse_cell[k];
-        labelled.side = side;
-        labelled_.push_back(labelled);
-      });
-      const auto n = model_.contact.normal == ContactNormal::logistic_regression
-                         ? logistic_regression_normal<Dim>(labelled_, model_.grid.cell)
-                         : linear_regression_normal<Dim>(labelled_, model_.grid.cell);
-      if (n) return *n;
+      if (!are_alone(a, b)) return normal_among_others(place, a, b);
+      if (const auto n = regress(place, a.groups, b.groups)) return *n;
       break;  // too few particles: there a gradient is better than the linear regression
     }
     case ContactNormal::average_gradient:

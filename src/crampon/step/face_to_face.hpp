@@ -1,8 +1,11 @@
 #pragma once
 /// How two fields of a node face each other: normal, gap and area (N13 sec. 3 step 1; docs/theory/contact.md, detection and normals).
 
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "crampon/contact/corner.hpp"
 #include "crampon/contact/node_solve.hpp"
 #include "crampon/contact/normal.hpp"
 #include "crampon/contact/outline_gap.hpp"
@@ -45,6 +48,7 @@ struct CrackAtNode {
 template <int Dim>
 struct Face {
   GroupSet groups = 0;
+  GroupSet company = 0;  ///< all groups of particles on the same sides of all cracks, its own too
   Signature cracks;
   double m = 0;                         ///< kg; of rigid bodies the volume
   double volume = 0;                    ///< m3; in 2D m2
@@ -59,6 +63,7 @@ struct Face {
 
   void add(const Face& b) {
     groups |= b.groups;
+    company |= b.company;
     m += b.m;
     volume += b.volume;
     x += b.x;
@@ -100,6 +105,8 @@ class FaceToFace {
   /// Materials: `facing` gives law and normal, b itself or the most of what N13's virtual material b is made of.
   bool see_material(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const Face<Dim>& facing,
                     ContactPair<Dim>& pair);
+  /// A pair that see_material has seen: where one body fills a corner of the other, it becomes several, one for each face of the corner.
+  void part_corner(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, std::vector<ContactPair<Dim>>& pairs);
   /// b is a wall, whose surface is known to the bit.
   bool see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const;
   /// a above and b below a crack.
@@ -107,6 +114,8 @@ class FaceToFace {
                   ContactPair<Dim>& pair);
 
  private:
+  std::pair<Face<Dim>, Face<Dim>> before(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b,
+                                         const CornerFace<Dim>& face) const;
   void look_back(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const;
   double cell_volume() const;
   double thickness(const Face<Dim>& a, const Face<Dim>& b) const;
@@ -117,12 +126,16 @@ class FaceToFace {
   double gap_by_volume(double volume_ratio) const;
   double gap(ContactDetection detection, const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b,
              const ContactPair<Dim>& pair, const Vec<Dim>& original_normal);
+  std::optional<Vec<Dim>> regress(const MeetingPlace<Dim>& place, GroupSet a, GroupSet b);
+  bool are_alone(const Face<Dim>& a, const Face<Dim>& b) const;
+  Vec<Dim> normal_among_others(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b);
   Vec<Dim> found_normal(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b);
 
   const State<Dim>& state_;
   const Model<Dim>& model_;
   std::vector<LabelledPoint<Dim>> labelled_;
   std::vector<OutlinedParticle<Dim>> outlined_;
+  std::vector<OutlinedPoint<Dim>> corner_points_;
 };
 
 }  // namespace crampon

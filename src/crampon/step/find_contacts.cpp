@@ -203,6 +203,11 @@ class NodeFinder {
       face.wall = group.body;
       face.field = face.lowest_field = model_.rigid_bodies[static_cast<std::size_t>(group.body)].field;
     }
+    for (Face<Dim>& face : faces_) {
+      for (const Face<Dim>& other : faces_) {
+        if (other.wall < 0 && (other.cracks == face.cracks || other.whole || face.whole)) face.company |= other.groups;
+      }
+    }
     place_ = {node.number, position_of(node.node), 0, mirrors, &cloud_.at(node.node)};
     for (const Face<Dim>& face : faces_) place_.volume += face.volume;
     for (CloudPoint<Dim>& point : cloud_.at(node.node)) {
@@ -295,8 +300,10 @@ class NodeFinder {
     pair.name.field_b = facing ? ContactName::all_others : b.lowest_field;
     pair.name.others = a.cracks;
     if (!(b.wall >= 0 ? view_.see_wall(place_, a, b, pair) : view_.see_material(place_, a, b, other, pair))) return;
-    pair.previous = previous_state(node.number, pair);
+    const std::size_t first = out_.pairs.size();
     out_.pairs.push_back(pair);
+    if (!facing && b.wall < 0) view_.part_corner(place_, a, b, out_.pairs);
+    for (std::size_t q = first; q < out_.pairs.size(); ++q) out_.pairs[q].previous = previous_state(node.number, out_.pairs[q]);
   }
 
   /// All materials on either side of a crack (N13 sec. 2.3; CONVENTIONS 34).

@@ -1,0 +1,145 @@
+/// Bodies that meet at a point, pressed: a uniform stress passes through contact as through one piece.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "run_case.hpp"
+
+namespace crampon::test {
+namespace {
+
+struct Corner {
+  const char* bodies;  ///< four blocks; two on one; one beside two; a block in an L
+  const char* shape_functions;
+  int particles_per_cell;
+  double x, y;  ///< of the point, in cells from the middle, a node
+};
+void PrintTo(const Corner& c, std::ostream* out) {
+  *out << c.bodies << ", " << c.shape_functions << ", " << c.particles_per_cell << " per cell, at " << c.x << ", " << c.y;
+}
+
+constexpr double cell = 0.125, pressure = 1e4, nu = 0.3;  // m, Pa
+
+/// A square of 1 m, E = 1 MPa, between walls without friction left, right and below, 10 kPa from above, faces inside without friction.
+std::string input(const Corner& c) {
+  const double x = 0.5 + c.x * cell, y = 0.5 + c.y * cell;
+  std::string text = fmt::format(R"in(
+[grid]
+origin = [-0.5, -0.5]
+size = [2, 2]
+cell = {}
+[time]
+end = 1.2
+courant = 0.5
+[method]
+shape_functions = "{}"
+damping = 40
+[contact]
+fields = "bodies"
+[[material]]
+name = "soft"
+law = "elastic_small_strain"
+E = 1e6
+nu = {}
+density = 1000
+[[symmetry]]
+axis = "y"
+at = 0
+[[symmetry]]
+axis = "x"
+at = 0
+[[symmetry]]
+axis = "x"
+at = 1
+side = "below"
+)in",
+                                 cell, c.shape_functions, nu);
+  const auto body = [&](const char* name, const std::string& shape, bool loaded) {
+    text += fmt::format("[[body]]\nname = \"{}\"\nmaterial = \"soft\"\nparticles_per_cell = [{}]\nshape = {{ {} }}\n", name,
+                        c.particles_per_cell, shape);
+    if (loaded)
+      text += fmt::format(
+          "[[load]]\nkind = \"pressure\"\nbody = \"{}\"\nface = \"y+\"\nregion = {{ kind = \"rectangle\", low = [-0.1, 0.9], high = [1.1, "
+          "1.1] }}\nvalue = [{{ times = [0, 0.4], values = [0, {}] }}]\n",
+          name, pressure);
+  };
+  const auto block = [&](double left, double below, double right, double above) {
+    return fmt::format("kind = \"rectangle\", low = [{}, {}], high = [{}, {}]", left, below, right, above);
+  };
+  const std::string bodies = c.bodies;
+  if (bodies == "block in an L") {
+    body("l", fmt::format("kind = \"difference\", of = {{ {} }}, without = [{{ {} }}]", block(0, 0, 1, 1), block(x, y, 1, 1)), true);
+    body("ne", block(x, y, 1, 1), true);
+    return text;
+  }
+  if (bodies == "one beside two") {
+    body("w", block(0, 0, x, 1), true);
+  } else if (bodies == "two on one") {
+    body("s", block(0, 0, 1, y), false);
+  } else {
+    body("sw", block(0, 0, x, y), false);
+  }
+  if (bodies != "two on one") body("se", block(x, 0, 1, y), false);
+  if (bodies != "one beside two") body("nw", block(0, y, x, 1), true);
+  body("ne", block(x, y, 1, 1), true);
+  return text;
+}
+
+/// Largest error of stress, over the pressure, of particles within two cells of the point, and of those further away. Particles in the
+/// three uppermost cells are left out: there the load acts.
+struct Errors {
+  double beside = 0, away = 0;
+};
+
+Errors press(const Corner& c) {
+  auto simulation = make(input(c));
+  const PointFrame first = simulation->particles({});
+  const auto start = first.positions.doubles();
+  run(*simulation);
+  const PointFrame frame = simulation->particles({"stress"});
+  const auto stress = field(frame, "stress").values.doubles();
+  const std::size_t count = start.size() / 3, components = stress.size() / count;
+  Errors errors;
+  for (std::size_t p = 0; p < count; ++p) {
+    const double x = start[3 * p], y = start[3 * p + 1];
+    if (y > 1 - 3 * cell) continue;
+    const double* s = &stress[components * p];
+    double e = std::fmax(std::fabs(s[1] + pressure), std::fabs(s[0] + nu / (1 - nu) * pressure));
+    e = std::fmax(e, std::fabs(s[3])) / pressure;
+    const bool is_beside = std::fabs(x - 0.5 - c.x * cell) < 2 * cell && std::fabs(y - 0.5 - c.y * cell) < 2 * cell;
+    double& worst = is_beside ? errors.beside : errors.away;
+    worst = std::fmax(worst, e);
+  }
+  return errors;
+}
+
+void expect_uniform(const Corner& c) {
+  const Errors errors = press(c);
+  testing::Test::RecordProperty("beside_percent", fmt::format("{:.3f}", 100 * errors.beside));
+  testing::Test::RecordProperty("away_percent", fmt::format("{:.3f}", 100 * errors.away));
+  EXPECT_LT(errors.away, 0.03);
+  EXPECT_LT(errors.beside, 0.1);
+}
+
+class ContactCorner : public testing::TestWithParam<Corner> {};
+class ContactCornerFull : public testing::TestWithParam<Corner> {};
+
+/// 3 % of the pressure away from the point, 10 % beside it.
+TEST_P(ContactCorner, PassesAUniformStress) { expect_uniform(GetParam()); }
+TEST_P(ContactCornerFull, PassesAUniformStress) { expect_uniform(GetParam()); }
+
+std::vector<Corner> corners(const std::vector<std::tuple<int, double, double>>& places) {
+  std::vector<Corner> all;
+  for (const char* bodies : {"four blocks", "two on one", "one beside two", "block in an L"}) {
+    for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+      for (const auto& [per_cell, x, y] : places) all.push_back({bodies, shape_functions, per_cell, x, y});
+    }
+  }
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(Points, ContactCorner, testing::ValuesIn(corners({{2, 0., 0.}, {2, 0.5, 0.5}})));
+INSTANTIATE_TEST_SUITE_P(Points, ContactCornerFull,
+                         testing::ValuesIn(corners({{2, 0.5, 0.}, {2, 0., -0.5}, {4, 0.25, 0.75}, {4, 0.75, 0.}, {4, 0.5, -0.25}})));
+
+}  // namespace
+}  // namespace crampon::test
