@@ -129,7 +129,7 @@ template <int Dim, class Shape>
 StiffestVertex find_stiffest_vertex(State<Dim>& state, const Model<Dim>& model) {
   if (!model.any_tractions()) return {};
   if (state.must_reorder) reorder<Dim, Shape>(state, model);
-  assign_velocity_fields<Dim, Shape>(state, model);
+  assign_velocity_fields<Dim, Shape>(state, model, 1.);  // no face moves yet: any time step
   choose_carriers(state, model);
   parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) { project_momentum<Dim, Shape>(state, model, b); });
   parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) { assemble_momentum<Dim, Shape>(state, b); });
