@@ -108,12 +108,77 @@ class CliTest(unittest.TestCase):
         self.call("run", "small.toml", "--set", "time.steps=3", "--force")
         self.assertEqual(json.loads((self.folder / "small.results/run.json").read_text())["steps"], 3)
 
+    def test_force_costs_nothing_that_is_not_replaced(self):
+        self.call("run", "small.toml", "--quiet")
+        self.call("draw", "small.results", "-o", "small.results/pictures")
+        mine = self.folder / "small.results/pictures/mine.png"
+        mine.write_bytes(b"\x89PNG of a camera, which is longer than the mark of a picture that was drawn by the program")
+        before = self.files()
+        # What keeps the new run from starting: a wrong input, memory, a disk that is full.
+        self.call("run", "small.toml", "--force", "--set", "time.steps=0", code=2)
+        self.call("run", "small.toml", "--force", "--set", "grid.cell=1e-8", "--set", "time.step=1e-12", code=2)
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+        self.call("run", "small.toml", "--force", code=4, preexec_fn=limit)
+        self.assertEqual(self.files(), before)
+        self.call("check", "small.results")
+        self.call("run", "small.toml", "--force", "--quiet")
+        self.assertTrue(mine.exists())
+        self.assertEqual([path.name for path in mine.parent.iterdir()], ["mine.png"])
+
+    def test_a_missed_expectation_is_an_error(self):
+        wrong = ("--set", "body[0].velocity=[2, 0]")
+        out, err = self.call("run", "small.toml", *wrong, code=1)
+        self.assertIn("MISSED", out)
+        self.assertIn("1 of 1 expected numbers missed", err)
+        out, err = self.call("run", "small.toml", *wrong, "--force", "--quiet", code=1)
+        self.assertEqual(out, "")
+        self.assertIn("crampon check small.results", err)
+        out, _ = self.call("run", "small.toml", *wrong, "--force", "--no-check")
+        self.assertNotIn("verdict", out)
+        self.call("run", "small.toml", *wrong, "--force", "--steps", "5")  # shortened: nothing is judged
+
+    def test_more_particles_or_cells_than_memory_are_refused_at_once(self):
+        for settings, words in ((("grid.cell=1e-6", "time.step=1e-12"), ('"block" comes to about 1.6e+13 particles', "wrong.toml:19:1")),
+                                (("grid.size=[8e6, 8e6]",), ("the grid has 6.4e+13 cells", "wrong.toml:6:1"))):
+            start = time.monotonic()
+            self.refused(SMALL, *words, "GB are free", arguments=[word for s in settings for word in ("--set", s)])
+            self.assertLess(time.monotonic() - start, 2)  # of two calls
+
+    def test_threads_beyond_the_cores(self):
+        cores = len(os.sched_getaffinity(0))
+        out, _ = self.call("run", "small.toml", "-j", "4000")
+        self.assertIn("note: 4000 threads are asked for (--threads)", out)
+        self.assertEqual(json.loads((self.folder / "small.results/run.json").read_text())["threads"], cores)
+        self.assertIn("4000 threads", self.call("validate", "small.toml", "-j", "4000")[0])
+        out, _ = self.call("run", "small.toml", "-f", env={**os.environ, "OMP_NUM_THREADS": "500"})
+        self.assertIn("500 threads are asked for (OMP_NUM_THREADS)", out)
+        self.assertNotIn("note", self.call("run", "small.toml", "-f", "-j", "1")[0])
+
+    # --- notes
+
+    def test_notes_are_told_before_the_run_and_kept(self):
+        law = ("--set", 'contact.default="frictionless"')
+        said = "contact.default: default has no effect (there is nothing that the body"
+        out, _ = self.call("validate", "small.toml", *law)
+        self.assertIn("note: --set contact.default", out)
+        self.assertIn(said, out)
+        self.assertIn("small.toml: valid, with 1 note", out)
+        out, _ = self.call("run", "small.toml", *law)
+        self.assertLess(out.index(said), out.index("finished"))
+        self.assertEqual(out.count(said), 1)
+        self.assertIn(said, self.call("info", "small.results")[0])
+
+    def test_a_problem_that_would_stop_is_not_called_valid(self):
+        out, err = self.call("validate", "small.toml", "--set", "time.step=100", "--set", "time.steps=5", code=3)
+        self.assertNotIn("valid\n", out)
+        self.assertIn("would stop", err)
+
     def test_quiet_says_nothing(self):
         self.assertEqual(self.call("run", "small.toml", "--quiet", "-o", "elsewhere/deep"), ("", ""))
         self.assertTrue((self.folder / "elsewhere/deep/run.json").exists())
 
     def test_set_changes_entries_one_at_a_time(self):
-        self.call("run", "small.toml", "-q", "--set", "time.steps=4", "--set", "body[0].velocity=[2, 0]", "-o", "out")
+        self.call("run", "small.toml", "-q", "--set", "time.steps=4", "--set", "body[0].velocity=[2, 0]", "-o", "out", "--no-check")
         self.assertEqual(json.loads((self.folder / "out/run.json").read_text())["steps"], 4)
         out, _ = self.call("check", "out", code=1)
         self.assertIn("MISSED", out)
@@ -239,6 +304,31 @@ class CliTest(unittest.TestCase):
             for file in made:
                 self.assertEqual((self.folder / file).read_bytes()[:4], b"\x89PNG", arguments)
 
+    def test_draw_ignores_no_option_in_silence(self):
+        self.call("run", "small.toml", "-q")
+        history = ("--history", "kinetic_energy")
+        profile = ("--profile", "x", "--quantity", "velocity_x")
+        for arguments, words in (((*history, "--time", "5 ms"), "--time has no effect on a plot of histories"),
+                                 ((*history, "--panel", "1x2"), "--panel has no effect on a plot of histories"),
+                                 ((*history, "--quantity", "velocity"), "--quantity has no effect on a plot of histories"),
+                                 ((*history, "--frame", "0"), "--frame"), ((*history, "--all"), "--all"),
+                                 ((*history, "--range", "0", "1"), "--window"), ((*history, "--magnify", "3"), "--magnify"),
+                                 ((*history, "--palette", "grey"), "--palette"), ((*history, "--symmetric"), "--symmetric"),
+                                 ((*history, "--fringes"), "--fringes"), ((*profile, "--panel", "1x2"), "--panel has no effect on a profile"),
+                                 ((*profile, "--magnify", "3"), "--magnify"), ((*profile, "--palette", "grey"), "--palette"),
+                                 ((*profile, "--range", "0", "1"), "--window"), ((*profile, "--compare", "small.results"), "--compare"),
+                                 (("--profile", "z", "--quantity", "velocity_x"), "in the plane"),
+                                 (("--fringe-constant", "0.1"), "--fringes"), (("--compare", "small.results"), "--history"),
+                                 (("--all", "-o", "a.png"), "a.png: a file is named for 3 pictures"),
+                                 (("--frame", "0", "1", "-o", "a.png"), "2 pictures"), (("--all", "--panel", "1x2"), "no room for 3 frames"),
+                                 (("--fringes", "--quantity", "velocity"), "both given")):
+            self.assertIn(words, self.call("draw", "small.results", *arguments, code=2)[1], arguments)
+        self.assertFalse((self.folder / "a.png").exists())
+        # A name without an extension is a folder, for one picture too.
+        for arguments in (("--frame", "1"), ("--panel", "1x2"), history, profile):
+            made, _ = self.call("draw", "small.results", *arguments, "-o", "into")
+            self.assertTrue(made.startswith("into/") and made.endswith(".png\n"), made)
+
     def test_draw_says_what_is_wrong(self):
         self.call("run", "small.toml", "-q")
         self.assertIn('did you mean "velocity"', self.call("draw", "small.results", "--quantity", "velocty", code=2)[1])
@@ -294,7 +384,25 @@ class CliTest(unittest.TestCase):
                 self.call("run", str(path), "-q", "--steps", "20", "-o", path.stem)
                 self.call("check", path.stem, "--partial")
 
+    def test_bodies_have_names_in_frames(self):
+        self.call("run", "small.toml", "-q")
+        frame = (self.folder / "small.results/particles/particles_000000.vtp").read_bytes()
+        self.assertIn(b"body_names", frame)
+
+    def test_hash_is_of_what_is_on_disk(self):
+        self.call("run", "small.toml", "-q")
+        self.call("run", "small.toml", "-q", "-o", "again")
+        before = self.call("info", "again", "--hash")[0]
+        self.assertEqual(self.call("info", "small.results", "--hash")[0], before)
+        record = self.folder / "again/run.json"
+        record.write_text(record.read_text().replace('"state_hash": "', '"state_hash": "0'))
+        self.assertEqual(self.call("info", "again", "--hash")[0], before)
+        last = self.folder / "again/particles/particles_000002.vtp"
+        last.write_bytes((self.folder / "again/particles/particles_000001.vtp").read_bytes())
+        self.assertNotEqual(self.call("info", "again", "--hash")[0], before)
+
     def test_schema_and_reference(self):
+        self.assertIn("`energy_closure`", self.call("quantities")[0])
         schema = json.loads(self.call("schema")[0])
         self.assertIn("grid", schema["properties"])
         self.assertIn("particles_per_cell", self.call("reference")[0])

@@ -22,7 +22,9 @@
 #include "crampon/output/draw.hpp"
 #include "crampon/output/file.hpp"
 #include "crampon/output/history.hpp"
+#include "crampon/output/picture_mark.hpp"
 #include "crampon/output/results_folder.hpp"
+#include "crampon/output/results_hash.hpp"
 #include "crampon/output/run_record.hpp"
 #include "output_cases.hpp"
 
@@ -81,6 +83,7 @@ CrackFrame two_cracks() {
 
 TEST_F(Output, PointFrameKeepsEveryBitInFullPrecision) {
   PointFrame written = random_frame(30000);
+  written.body_names = {"block", "a <tool> & \"more\""};
   written.fields[3].values.set(1, -0.);
   written.fields[3].values.set(2, std::numeric_limits<double>::quiet_NaN());
   written.fields[3].values.set(3, std::numeric_limits<double>::infinity());
@@ -90,6 +93,7 @@ TEST_F(Output, PointFrameKeepsEveryBitInFullPrecision) {
   expect_same_bits({written.time, written.cell}, {read.time, read.cell}, "time and cell");
   EXPECT_EQ(written.step, read.step);
   EXPECT_EQ(written.dimension, read.dimension);
+  EXPECT_EQ(written.body_names, read.body_names);
   expect_same_bits(written.positions, read.positions, "positions");
   expect_same_bits(written.particle_size, read.particle_size, "sizes");
   ASSERT_EQ(written.fields.size(), read.fields.size());
@@ -353,6 +357,13 @@ TEST_F(Output, ForceLeavesLinkedFoldersAlone) {
   EXPECT_TRUE(fs::exists(other / "particles_000000.vtp"));
 }
 
+/// As long as the first chunks of a picture, with the mark.
+std::string drawn_picture() {
+  std::string png(100, 'x');
+  mark_picture(png);
+  return png;
+}
+
 TEST_F(Output, ForceLeavesAloneWhatNoRunWrote) {
   const fs::path path = folder / "mine";
   fs::create_directories(path);
@@ -361,14 +372,78 @@ TEST_F(Output, ForceLeavesAloneWhatNoRunWrote) {
   write_file(path / "run.json", "{\"program\": \"another\"}");
   EXPECT_TRUE(contains(message_of([&] { ResultsFolder::create(path, Overwrite::replace); }), "no run.json of Crampon"));
   EXPECT_EQ(read_file(path / "history.csv"), "my own");
-  // A run's own pictures go with it: they would show the old one.
+  // Pictures that were drawn of a run go with it: they would show the old one.
   write_run_record(path / "run.json", describe_program());
   fs::create_directories(path / "pictures");
-  write_file(path / "pictures" / "history.png", "");
+  write_file(path / "pictures" / "history.png", drawn_picture());
+  write_file(path / "pictures" / "photo.png",
+             "\x89PNG of a camera, which is longer than the mark of a picture that was drawn by the program");
   write_file(path / "pictures" / "sketch.svg", "");
   ResultsFolder::create(path, Overwrite::replace);
   EXPECT_FALSE(fs::exists(path / "pictures" / "history.png"));
+  EXPECT_TRUE(fs::exists(path / "pictures" / "photo.png"));
   EXPECT_TRUE(fs::exists(path / "pictures" / "sketch.svg"));
+}
+
+TEST_F(Output, OlderResultsComeBackUnlessTheNewRunHasStarted) {
+  const fs::path path = folder / "results";
+  const auto write_run = [&](ResultsFolder run, double time) {
+    PointFrame frame = random_frame(2);
+    frame.time = time;
+    run.write_particles(frame);
+    write_run_record(run.run_record(), describe_program());
+  };
+  write_run(ResultsFolder::create(path), 1);
+  fs::create_directories(path / "pictures");
+  write_file(path / "pictures" / "history.png", drawn_picture());
+  write_file(path / "mine.txt", "mine");
+  const auto time_there = [&] { return ResultsFolder::open(path).particle_frames().front().time; };
+  {
+    const OlderResults older(path);
+    EXPECT_FALSE(fs::exists(path / "run.json"));
+    write_run(ResultsFolder::start(older), 2);
+    EXPECT_EQ(time_there(), 2);
+  }
+  EXPECT_EQ(time_there(), 1);
+  EXPECT_TRUE(fs::exists(path / "pictures" / "history.png"));
+  {
+    OlderResults older(path);
+    write_run(ResultsFolder::start(older), 2);
+    older.remove();
+  }
+  EXPECT_EQ(time_there(), 2);
+  EXPECT_FALSE(fs::exists(path / "pictures"));
+  EXPECT_EQ(read_file(path / "mine.txt"), "mine");
+
+  // A run that is killed as it starts leaves the older results aside: the next one finds them.
+  fs::create_directories(path / "replaced.partial" / "particles");
+  for (const char* file : {"run.json", "particles.pvd", "particles/particles_000000.vtp"})
+    fs::rename(path / file, path / "replaced.partial" / file);
+  EXPECT_THROW(ResultsFolder::check(path, Overwrite::refuse), ResultsExist);
+  { const OlderResults older(path); }
+  EXPECT_EQ(time_there(), 2);
+  EXPECT_FALSE(fs::exists(path / "replaced.partial"));
+}
+
+TEST_F(Output, HashIsOfTheLastFramesOnDisk) {
+  const auto hash_of = [&](const char* name, const PointFrame& first, const PointFrame& last, const CrackFrame& cracks) {
+    ResultsFolder results = ResultsFolder::create(folder / name);
+    results.write_particles(first, Precision::full);
+    results.write_particles(last, Precision::full);
+    results.write_cracks(cracks, Precision::full);
+    return hash_results(ResultsFolder::open(folder / name));
+  };
+  const PointFrame a = random_frame(3), b = random_frame(2);
+  const std::uint64_t hash = hash_of("a", a, b, two_cracks());
+  EXPECT_EQ(hash_of("same", b, b, two_cracks()), hash) << "the first frame does not count";
+  EXPECT_NE(hash_of("other", b, a, two_cracks()), hash);
+  PointFrame moved = b;
+  moved.positions.set(0, std::nextafter(b.positions[0], HUGE_VAL));
+  EXPECT_NE(hash_of("moved", a, moved, two_cracks()), hash) << "the last bit of one number counts";
+  CrackFrame cracks = two_cracks();
+  cracks.upper[0] += 1;
+  EXPECT_NE(hash_of("cracks", a, b, cracks), hash);
+  EXPECT_THROW(hash_results(ResultsFolder::create(folder / "empty")), std::runtime_error);
 }
 
 // Lets files grow to a few bytes only, as a disk that fills up within one file.
