@@ -90,7 +90,7 @@ void scatter_momentum(State& state, Places places) {
   Pack record[lanes];
   for (Pack& r : record) r = Pack{draw(0, 1), draw(0, 1), draw(0, 1), draw(0, 1)};
   for (auto _ : state) {
-    scatter<Dim, Shape>(pack.stencil(), nullptr, record, tile.data());
+    scatter<Dim, Shape>(pack.stencil(), nullptr, nullptr, record, tile.data());
     ClobberMemory();
   }
 }
@@ -101,7 +101,7 @@ void velocity_gradient(State& state, Places places) {
   const std::vector<NodalVector<Dim>> velocity(Tile<Dim, Shape>::nodes, splat_as<NodalVector<Dim>>(1.));
   Pack L[Dim * Dim];
   for (auto _ : state) {
-    gradient<Dim, Shape>(pack.stencil(), nullptr, velocity.data(), L);
+    gradient<Dim, Shape>(pack.stencil(), nullptr, nullptr, velocity.data(), L);
     DoNotOptimize(L);
     ClobberMemory();
   }
