@@ -150,13 +150,17 @@ def vertex_normal(plane, k):
 
 def between_surfaces(model, crack, k):
     """A vertex that is not between its surface points goes back to their middle, unless they have slid a cell apart."""
-    x, n, h = crack.plane[k], vertex_normal(crack.plane, k), model.grid.h
+    x, h = crack.plane[k], model.grid.h
+    on_mirror = {m.axis for m in model.symmetries if abs(x[m.axis] - m.at) < 1e-8 * h}
+    n = [0.0 if c in on_mirror else component for c, component in enumerate(vertex_normal(crack.plane, k))]
+    size = (n[0] ** 2 + n[1] ** 2) ** 0.5
+    n = [component / size for component in n] if size > 0 else n
     up, low = (sum((points[k][c] - x[c]) * n[c] for c in range(2)) for points in (crack.upper, crack.lower))
-    slid = -(crack.upper[k][0] - crack.lower[k][0]) * n[1] + (crack.upper[k][1] - crack.lower[k][1]) * n[0]
+    normal = vertex_normal(crack.plane, k)
+    slid = -(crack.upper[k][0] - crack.lower[k][0]) * normal[1] + (crack.upper[k][1] - crack.lower[k][1]) * normal[0]
     if (up <= 0 <= low) or abs(slid) > h:
         return x
-    on_mirror = {m.axis for m in model.symmetries if abs(x[m.axis] - m.at) < 1e-8 * h}
-    return tuple(x[c] if c in on_mirror else x[c] + 0.5 * (up + low) * n[c] for c in range(2))
+    return tuple(x[c] + 0.5 * (up + low) * n[c] for c in range(2))
 
 
 def fill(motions):

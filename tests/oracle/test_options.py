@@ -95,13 +95,13 @@ def prescribed_components_stay():
 
 
 def ends_outside_go_along():
-    """Vertices a cell outside the body, exactly on grid lines, make the step of the next vertex inside."""
+    """Vertices a cell outside the body, exactly on grid lines, go on as the material inside does: its linear continuation."""
     model = cramp.Model(next(option_cases.vertex_cases()))
     before = model.cracks[0].plane
     model.step()
     moved = [[b[k] - a[k] for k in range(2)] for a, b in zip(before, model.cracks[0].plane)]
     for end, inside in ((0, 1), (3, 2)):
-        assert all(abs(moved[end][k] - moved[inside][k]) < 1e-16 for k in range(2))  # positions of 0.05 m, round-off
+        assert all(1 < moved[end][k] / moved[inside][k] < 4 for k in range(2))  # it stretches along and opens away from the middle
         assert max(map(abs, moved[end])) > 1e-6
 
 

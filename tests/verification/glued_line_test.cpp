@@ -220,7 +220,7 @@ TEST(GlueThatIsStiff, IsRefusedWhenItForcesFarTooShortSteps) {
 
 /// The announced step is the one that the law allows, and a note says so.
 TEST(GlueThatIsStiff, AnnouncesTheStepThatTheLawForces) {
-  const auto simulation = make(glued_halves({"gimp", 0.5, 0, 0.48}, 1e14));
+  const auto simulation = make(glued_halves({"gimp", 0.5, 0, 0.48}, 1e15));
   const double announced = simulation->size().time_step;
   const auto notes = simulation->notes();
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {

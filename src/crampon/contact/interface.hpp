@@ -51,7 +51,7 @@ struct InterfaceSprings {
   }
 };
 
-/// Tasks 2 and 6: only what is held is made to move together. Task 4: all.
+/// Task 2: only what is held is made to move together. Task 4: all. Task 6: as Task 4 has left it.
 template <int Dim>
 Response<Dim> interface_response(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
   const auto& law = std::get<InterfaceContact>(*pair.law);
@@ -59,7 +59,12 @@ Response<Dim> interface_response(const ContactRules& rules, ContactPair<Dim>& pa
   const double w_n = dot(w, pair.n);
   const Vec<Dim> w_t = w - pair.n * w_n;
   Response<Dim> out;
-  if (rules.task != ContactTask::four) {
+  if (rules.task == ContactTask::six) {  // positions move with these velocities: springs keep what Task 4 has left them
+    out.aside = (pair.w_settled - w) * m;
+    out.J = out.aside;
+    return out;
+  }
+  if (rules.task == ContactTask::two) {
     const bool closed = springs.normal.stiff() && springs.D_n != 0;
     // A one-sided hold does not pull.
     const bool one_sided = law.tension == 0 && springs.u_n <= 0;

@@ -88,6 +88,7 @@ void close_pair(const ContactGroup<Dim>* groups, ContactPair<Dim>& pair, double 
     const double share = pair.is_virtual() ? 0.5 : 1;  // there every face is met from both of its sides
     ledger.interface_energy += share * interface_energy(pair, reduced_mass(a, b), w, dt);
     if (interface_load(pair, dt) >= 1) pair.history_gain = 1 - pair.history;
+    pair.w_settled = w;  // what Task 6 leaves the spring
   }
   if (std::holds_alternative<SlipWeakeningContact>(*pair.law) && pair.state == ContactState::slip) {
     const Vec<Dim> mean = (w + pair.w_settled) * 0.5;

@@ -170,17 +170,32 @@ class CarrierChoice {
     std::erase_if(seen, [&](const Candidate& c) { return c.field != field; });
     for (const SymmetryPlane& mirror : model_.symmetries) {
       const auto k = static_cast<std::size_t>(mirror.axis);
-      const std::size_t originals = seen.size();
-      for (std::size_t i = 0; i < originals; ++i) {
-        Candidate image = seen[i];
-        image.y[k] += 2 * (mirror.at - x[k] - image.y[k] * model_.grid.cell[k]) * model_.grid.inverse_cell[k];
-        image.flip = static_cast<std::uint8_t>(image.flip ^ 1u << k);
-        if (within(image.y, reach)) seen.push_back(image);
+      const auto image_of = [&](Candidate c) {
+        c.y[k] += 2 * (mirror.at - x[k] - c.y[k] * model_.grid.cell[k]) * model_.grid.inverse_cell[k];
+        c.flip = static_cast<std::uint8_t>(c.flip ^ 1u << k);
+        return c;
+      };
+      std::vector<Candidate> images;
+      for (const Candidate& c : found) {
+        const Candidate image = image_of(c);
+        if (c.field == field && within(image.y, reach) && seen_in_mirror(mirror, from, state_.particles.position(c.slot)))
+          images.push_back(image);
       }
+      for (const Candidate& c : seen) {  // images in another mirror
+        const Candidate image = image_of(c);
+        if (c.flip != 0 && within(image.y, reach)) images.push_back(image);
+      }
+      seen.insert(seen.end(), images.begin(), images.end());
     }
     return seen;
   }
 
+  /// Cracks and their images behind the mirror part points as they part them in the whole body.
+  bool seen_in_mirror(const SymmetryPlane& mirror, const Vec<2>& from, Vec<2> place) const {
+    const auto k = static_cast<std::size_t>(mirror.axis);
+    place[k] = 2 * mirror.at - place[k];
+    return surfaces_.hidden(from, {&place, 1}) == 0;
+  }
   Vec<2> in_cells(const Vec<2>& d) const { return {{d[0] * model_.grid.inverse_cell[0], d[1] * model_.grid.inverse_cell[1]}}; }
   static bool within(const Vec<2>& y, double reach) { return std::fabs(y[0]) < reach && std::fabs(y[1]) < reach; }
 

@@ -48,7 +48,7 @@ struct CrackAtNode {
 template <int Dim>
 struct Face {
   GroupSet groups = 0;
-  GroupSet company = 0;  ///< all groups of particles on the same sides of all cracks, its own too
+  GroupSet company = 0;  ///< all groups of particles at the node, its own too
   Signature cracks;
   double m = 0;                         ///< kg; of rigid bodies the volume
   double volume = 0;                    ///< m3; in 2D m2

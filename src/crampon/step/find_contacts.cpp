@@ -205,7 +205,7 @@ class NodeFinder {
     }
     for (Face<Dim>& face : faces_) {
       for (const Face<Dim>& other : faces_) {
-        if (other.wall < 0 && (other.cracks == face.cracks || other.whole || face.whole)) face.company |= other.groups;
+        if (other.wall < 0) face.company |= other.groups;
       }
     }
     place_ = {node.number, position_of(node.node), 0, mirrors, &cloud_.at(node.node)};
