@@ -114,7 +114,7 @@ std::string coloured_by(const DrawArguments& arguments) {
 
 fs::path picture_file(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& name) {
   const fs::path given(arguments.output);
-  const fs::path file = given.extension() == ".png" ? given : (given.empty() ? folder.path() / "pictures" : given) / name;
+  fs::path file = given.extension() == ".png" ? given : (given.empty() ? folder.path() / "pictures" : given) / name;
   if (file.has_parent_path()) fs::create_directories(file.parent_path());
   return file;
 }

@@ -74,12 +74,12 @@ TEST(WholeBody, MeetsBothSidesOfACrack) {
   expect_same_sums(problem(cut, law), problem(two, law), round_off);
 }
 
-/// Bonded bodies are one to a third that slides over their seam. By gradients: beside the ends of a body a regression chooses among several
-/// normals that are about as good, and there the order of the particles may decide.
-TEST(BondedBodies, AreOneToAThird) {
+/// Bonded bodies are one to a third that slides over their seam. Measured: with friction energies differ by 3e-4 of the whole, and the cause is not found;
+/// without friction they agree to 1e-15.
+TEST(BondedBodiesFull, AreOneToAThird) {
   const std::string slider = block("slider", 0.12, 0.14, 0.21, 0.18, "velocity = [3, -2]");
   const std::string law =
-      "fields = \"bodies\"\nnormal = \"largest_gradient\"\ndefault = { law = \"slip_weakening\", friction = 0.1, static_friction = 0.5, "
+      "fields = \"bodies\"\ndefault = { law = \"slip_weakening\", friction = 0.1, static_friction = 0.5, "
       "distance = 0.001 }";
   const std::string glue = "[[contact_pair]]\nbetween = [\"left\", \"right\"]\ncontact = { law = \"bonded\" }\n";
   const std::string two = block("left", 0.1, 0.1, 0.2, 0.14) + block("right", 0.2, 0.1, 0.3, 0.14) + slider + glue;
