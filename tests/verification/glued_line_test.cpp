@@ -222,7 +222,7 @@ TEST(GlueThatIsStiff, IsRefusedWhenItForcesFarTooShortSteps) {
 TEST(GlueThatIsStiff, AnnouncesTheStepThatTheLawForces) {
   const auto simulation = make(glued_halves({"gimp", 0.5, 0, 0.48}, 1e15));
   const double announced = simulation->size().time_step;
-  const auto notes = simulation->notes();
+  const auto notes = simulation->notes_at_start();
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
     return note.find("the traction law of the crack \"glue\" asks for steps of") != std::string::npos;
   }));
