@@ -203,10 +203,9 @@ void expect_energy_kept(double D, int steps, double within) {
   EXPECT_LT(highest, 1.05) << D;
 }
 TEST(InterfaceStretch, SpringsKeepTheEnergy) {
-  expect_energy_kept(2e7, 20000, 0.03);  // phi = .5 gains 2 % in 50 periods
-  // Held (phi = 3.6 and more): positions and strains move with the tenth of the displacement that a step closes, and 1.3 % is lost.
-  expect_energy_kept(1e9, 20000, 0.02);
-  expect_energy_kept(1e11, 20000, 0.02);
+  expect_energy_kept(2e7, 20000, 0.01);  // phi = .5 gains .6 % in 50 periods
+  expect_energy_kept(1e9, 20000, 0.01);  // held (phi = 3.6 and more)
+  expect_energy_kept(1e11, 20000, 0.01);
 }
 TEST(InterfaceStretchFull, StiffSpringsKeepTheEnergyFor100000Steps) { expect_energy_kept(1.93e11, 100000, 0.01); }  // phi = 50
 

@@ -51,7 +51,8 @@ struct InterfaceSprings {
   }
 };
 
-/// Task 2: only what is held is made to move together. Task 4: all. Task 6: as Task 4 has left it.
+/// Task 2: only what is held is made to move together. Task 4: all. Task 6: what is held moves together, the other springs as Task 4 has
+/// left them. Positions move as Task 4 has left them in any case (find_drift in step/adjust_contact.cpp).
 template <int Dim>
 Response<Dim> interface_response(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
   const auto& law = std::get<InterfaceContact>(*pair.law);
@@ -59,15 +60,18 @@ Response<Dim> interface_response(const ContactRules& rules, ContactPair<Dim>& pa
   const double w_n = dot(w, pair.n);
   const Vec<Dim> w_t = w - pair.n * w_n;
   Response<Dim> out;
-  if (rules.task == ContactTask::six) {  // positions move with these velocities: springs keep what Task 4 has left them
-    out.aside = (pair.w_settled - w) * m;
+  // A one-sided hold does not pull.
+  const bool one_sided = law.tension == 0 && springs.u_n <= 0;
+  if (rules.task == ContactTask::six) {
+    const double settled_n = dot(pair.w_settled, pair.n);
+    const bool closed = springs.normal.stiff() && !(one_sided && settled_n > 0);
+    const Vec<Dim> to_t = springs.tangential.stiff() ? Vec<Dim>{} : pair.w_settled - pair.n * settled_n;
+    out.aside = pair.n * (m * ((closed ? 0 : settled_n) - w_n)) + (to_t - w_t) * m;
     out.J = out.aside;
     return out;
   }
   if (rules.task == ContactTask::two) {
     const bool closed = springs.normal.stiff() && springs.D_n != 0;
-    // A one-sided hold does not pull.
-    const bool one_sided = law.tension == 0 && springs.u_n <= 0;
     if (closed && !(one_sided && w_n > 0)) out.push(pair.n, m, w_n, 0);
     if (springs.tangential.stiff()) out.stick(w_t * m);
     return out;

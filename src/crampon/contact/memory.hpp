@@ -20,7 +20,7 @@ struct ContactName {
   static constexpr std::uint16_t all_others = 0xffff;  ///< the virtual material of N13 Eq. 8
 
   CrackId crack = no_crack;
-  std::uint16_t field_a = 0, field_b = 0;  ///< material fields; 0 for faces of a crack
+  std::uint16_t field_a = 0, field_b = 0;  ///< material fields, of those that are bonded the lowest; 0 for faces of a crack
   Signature others;
   Signature rest;         ///< cracks between the two besides `crack`
   std::uint8_t face = 0;  ///< 1 and more: of a corner in which one body meets the other by several faces

@@ -35,6 +35,8 @@ struct ContactGroup {
   Vec<Dim> gain;       ///< what the forces of Task 3 added to it, m/s
   Vec<Dim> dp2, dp4;   ///< impulses of Tasks 2 and 4, kg m/s
 
+  Vec<Dim> drift;  ///< velocity of positions over that of strains, m/s: interfaces alone
+
   Vec<Dim> velocity() const { return rigid ? p * (1 / m) : (p + dp) * (1 / m); }
 };
 
@@ -87,6 +89,13 @@ struct ContactNode {
   std::uint32_t first_pair = 0, end_pair = 0;
 };
 
+/// Positions at a node move faster than strains by dv.
+template <int Dim>
+struct ContactDrift {
+  std::size_t slot = 0;  ///< of the node in a field
+  Vec<Dim> dv;           ///< m/s
+};
+
 /// All nodes of a block that hold more than one velocity field. Built in Task 2 and used again in Tasks 4 and 6: masses, normals,
 /// gaps and volumes are those of Task 1.
 template <int Dim>
@@ -96,12 +105,14 @@ struct ContactNodes {
   std::vector<ContactGroup<Dim>> groups;
   std::vector<ContactPair<Dim>> pairs;
   std::vector<NodeSide> sides;
+  std::vector<ContactDrift<Dim>> drifts;  ///< of Task 6
   void clear() {
     nodes.clear();
     fields.clear();
     groups.clear();
     pairs.clear();
     sides.clear();
+    drifts.clear();
   }
 };
 

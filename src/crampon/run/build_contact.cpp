@@ -76,6 +76,27 @@ void add_pair(const Problem& problem, const ContactPairInput& in, Model<Dim>& mo
                     "set contact.fields to \"materials\" or \"bodies\", or give bodies a field"});
 }
 
+/// Fields that bonded laws join, in chains, share a velocity where no crack parts them. One after another, bonded pairs are pairs like others.
+template <int Dim>
+void find_bonds(Model<Dim>& model) {
+  const auto bonded = [&](std::uint16_t a, std::uint16_t b) {
+    return model.contact.pairs == ContactPairs::joint && std::holds_alternative<BondedContact>(model.law_between(a, b)) &&
+           !model.is_whole(a) && !model.is_whole(b);
+  };
+  const auto count = static_cast<std::uint16_t>(model.fields.size());
+  for (std::uint16_t a = 0; a < count; ++a) {
+    model.fields[a].bonded_to = a;
+    for (std::uint16_t b = 0; b < a; ++b) {
+      const std::uint16_t from = model.fields[a].bonded_to, to = model.fields[b].bonded_to;
+      if (!bonded(a, b) || from == to) continue;
+      for (std::uint16_t f = 0; f <= a; ++f) {
+        std::uint16_t& root = model.fields[f].bonded_to;
+        if (root == std::max(from, to)) root = std::min(from, to);
+      }
+    }
+  }
+}
+
 /// The condition through which a rigid body prescribes velocities; its nodes are found in every step.
 template <int Dim>
 void add_condition(const RigidInput& in, std::size_t body, Model<Dim>& model) {
@@ -100,6 +121,7 @@ void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state,
   model.field_laws.assign(n * n, problem.contact.between_fields);
   model.field_normals.assign(n * n, Vec<Dim>{});
   for (const ContactPairInput& in : problem.contact_pairs) add_pair(problem, in, model, errors);
+  find_bonds(model);
   for (std::size_t w = 0; w < problem.walls.size(); ++w) {
     const std::uint16_t wall = model.rigid_bodies[problem.rigids.size() + w].field;
     for (std::size_t f = 0; f < n; ++f) {

@@ -88,11 +88,24 @@ void close_pair(const ContactGroup<Dim>* groups, ContactPair<Dim>& pair, double 
     const double share = pair.is_virtual() ? 0.5 : 1;  // there every face is met from both of its sides
     ledger.interface_energy += share * interface_energy(pair, reduced_mass(a, b), w, dt);
     if (interface_load(pair, dt) >= 1) pair.history_gain = 1 - pair.history;
-    pair.w_settled = w;  // what Task 6 leaves the spring
+    pair.w_settled = w;  // positions move with it
   }
   if (std::holds_alternative<SlipWeakeningContact>(*pair.law) && pair.state == ContactState::slip) {
     const Vec<Dim> mean = (w + pair.w_settled) * 0.5;
     pair.history_gain = norm(mean - pair.n * dot(mean, pair.n)) * dt;
+  }
+}
+
+/// Springs of interfaces open as Task 4 has left them: positions move with its relative velocity, which strains, of Task 6, do not see.
+/// With that a spring that is held closes without a strain for each tenth that it closes.
+template <int Dim>
+void find_drift(ContactGroup<Dim>* groups, const ContactPair<Dim>* pairs, int pair_count) {
+  for (int q = 0; q < pair_count; ++q) {
+    if (!holds_as_interface(pairs[q])) continue;
+    const PairSide<Dim> a = side_of(groups, pairs[q].a), b = side_of(groups, pairs[q].b);
+    const Vec<Dim> J = (pairs[q].w_settled - (b.v - a.v)) * reduced_mass(a, b);
+    if (!a.rigid) for_groups(pairs[q].a, [&](int g) { groups[g].drift -= J * (1 / a.m); });
+    if (!b.rigid) for_groups(pairs[q].b, [&](int g) { groups[g].drift += J * (1 / b.m); });
   }
 }
 
@@ -192,6 +205,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
           book_rigid(groups[g], state.rigid[static_cast<std::size_t>(groups[g].body)].start, x_i, by_group, task, dt, ledger);
       }
       if (task == ContactTask::two) settle_pairs(groups, pairs, pair_count);
+      if (task == ContactTask::six) find_drift(groups, pairs, pair_count);
       for (int q = 0; q < pair_count && task == ContactTask::four; ++q) {
         pairs[q].rubbing = rubbing(pairs[q]);
         // Without Task 6 the velocity of the particles at the end is not known: that at the start stands for both.
@@ -213,6 +227,8 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
       for (int k = 0; k < Dim; ++k) {
         if (rules.fixed_axes >> k & 1u) dp[k] = 0;
       }
+      if (task == ContactTask::six && group.drift != Vec<Dim>{})
+        contacts.drifts.push_back({i, without_axes(group.drift, rules.fixed_axes)});
       if (task == ContactTask::four) {
         add_momentum_and_force(nodes, i, dp, dt);
       } else {

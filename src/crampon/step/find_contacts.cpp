@@ -183,6 +183,7 @@ class NodeFinder {
       part.g = mirrors.together(sums.gradient());
       part.history = mirrors.images * sums.history();
       part.field = part.lowest_field = layer(field.layer).field;
+      part.known_as = model_.fields[part.field].bonded_to;
       Face<Dim>& face = faces_[static_cast<std::size_t>(field.group)];
       face.cracks = without_joined(layer(field.layer).cracks, model_);
       face.rigid = model_.is_rigid(part.field);
@@ -201,13 +202,14 @@ class NodeFinder {
       face.m = 1;
       face.rigid = face.whole = true;
       face.wall = group.body;
-      face.field = face.lowest_field = model_.rigid_bodies[static_cast<std::size_t>(group.body)].field;
+      face.field = face.lowest_field = face.known_as = model_.rigid_bodies[static_cast<std::size_t>(group.body)].field;
     }
     for (Face<Dim>& face : faces_) {
       for (const Face<Dim>& other : faces_) {
         if (other.wall < 0) face.company |= other.groups;
       }
     }
+    tell_apart();
     place_ = {node.number, position_of(node.node), 0, mirrors, &cloud_.at(node.node)};
     for (const Face<Dim>& face : faces_) place_.volume += face.volume;
     for (CloudPoint<Dim>& point : cloud_.at(node.node)) {
@@ -217,6 +219,16 @@ class NodeFinder {
     }
     for (int k = 0; k < Dim; ++k) {
       if (mirrors.axes >> k & 1u) cloud_.add_images(node.node, k);
+    }
+  }
+
+  /// Where what bonds two groups lies elsewhere, they go by their own fields.
+  void tell_apart() {
+    for (std::size_t g = 1; g < faces_.size(); ++g) {
+      for (std::size_t h = 0; h < g; ++h) {
+        Face<Dim>&a = faces_[g], &b = faces_[h];
+        if (a.known_as == b.known_as && a.cracks == b.cracks) a.known_as = a.lowest_field, b.known_as = b.lowest_field;
+      }
     }
   }
 
@@ -296,8 +308,8 @@ class NodeFinder {
     if (!bonded && !b.rigid && std::fmin(a.m, b.m) < model_.contact.mass_screen * (a.m + b.m)) return;  // CONVENTIONS 37
     pair.a = a.groups;
     pair.b = b.groups;
-    pair.name.field_a = a.lowest_field;
-    pair.name.field_b = facing ? ContactName::all_others : b.lowest_field;
+    pair.name.field_a = a.known_as;
+    pair.name.field_b = facing ? ContactName::all_others : b.known_as;
     pair.name.others = a.cracks;
     if (!(b.wall >= 0 ? view_.see_wall(place_, a, b, pair) : view_.see_material(place_, a, b, other, pair))) return;
     const std::size_t first = out_.pairs.size();

@@ -36,11 +36,12 @@ struct Material {
 /// A velocity field of its own (N13 sec. 1.2): of one material, of one body, or of a group that the input names.
 struct MaterialField {
   std::string name;
-  bool rigid = false;    ///< of a rigid body: masses on its nodes are volumes, 1 kg/m3
-  bool whole = false;    ///< cracks do not part it: rigid, or as the input has it
-  int body = -1;         ///< rigid: index into Model::rigid_bodies
-  double thickness = 1;  ///< m, 2D
-  EdgeMap edge;          ///< from the mean position of its particles about a node to its edge
+  bool rigid = false;           ///< of a rigid body: masses on its nodes are volumes, 1 kg/m3
+  bool whole = false;           ///< cracks do not part it: rigid, or as the input has it
+  int body = -1;                ///< rigid: index into Model::rigid_bodies
+  std::uint16_t bonded_to = 0;  ///< the lowest field to which a chain of bonded laws joins it; itself where there is none
+  double thickness = 1;         ///< m, 2D
+  EdgeMap edge;                 ///< from the mean position of its particles about a node to its edge
 };
 
 /// A body that moves as prescribed (N13 sec. 3, rigid materials).

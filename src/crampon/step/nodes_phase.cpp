@@ -56,7 +56,7 @@ void find_velocities(State<Dim>& state, std::size_t b) {
   }
 }
 
-/// Particles are to move with the nodal velocities at hand.
+/// Particles are to move with the nodal velocities at hand, and as far as springs between them give way.
 template <int Dim>
 void move_with_velocities(State<Dim>& state, std::size_t b) {
   const std::size_t first = state.nodes.layers[b].slot(0, 0), end = state.nodes.layers[b].slot(state.nodes.layers[b].node.size(), 0);
@@ -68,6 +68,9 @@ void move_with_velocities(State<Dim>& state, std::size_t b) {
     } else {
       moving = v;
     }
+  }
+  for (const ContactDrift<Dim>& drift : state.scratch[b].contact.drifts) {
+    for (int k = 0; k < Dim; ++k) state.nodes.motion[drift.slot].r[0][k] += drift.dv[k];
   }
 }
 
