@@ -10,10 +10,22 @@ namespace crampon {
 
 namespace {
 
-/// Cells by which the faces of a corner must part two bodies better than one plane does. More than what rows of particles that slant
-/// across the cells, and faces with a radius of five cells or more, leave to either; less than the overlap that one plane leaves at a corner
-/// of which a node sees the outermost row.
-constexpr double clear_gain = 0.3;
+/// Sizes of particles by which the faces of a corner must part two bodies better than one plane does. More than what rows of particles that
+/// slant across the cells, and round faces, leave to either; less than the overlap that one plane leaves at a corner of which a node sees the
+/// outermost row.
+constexpr double clear_gain = 0.6;
+
+/// Size of the particles across n in the mean, as perpendicular_cell() has it of cells, m.
+template <int Dim>
+double mean_size(std::span<const OutlinedPoint<Dim>> points, const Vec<Dim>& n) {
+  double sum = 0;
+  for (const OutlinedPoint<Dim>& p : points) {
+    double squares = 0;
+    for (const Vec<Dim>& r : p.half_edges) squares += dot(n, r) * dot(n, r);
+    sum += 2 * std::sqrt(squares);
+  }
+  return sum / static_cast<double>(points.size());
+}
 
 /// The body in the corner is convex there; the other is parted among the faces of the corner.
 template <int Dim>
@@ -173,7 +185,7 @@ template <int Dim>
 std::vector<CornerFace<Dim>> find_corner(std::span<const OutlinedPoint<Dim>> points, const Vec<Dim>& n, const Vec<Dim>& cell) {
   RegressionGap<Dim> single(n);
   for (const OutlinedPoint<Dim>& p : points) single.add(p.x, p.half_edges, p.side);
-  const double wanted = single.gap() + clear_gain * perpendicular_cell(cell, n);
+  const double wanted = single.gap() + clear_gain * mean_size(points, n);
   if (!(wanted < 0)) return {};  // faces that touch leave nothing to gain
   for (const ContactSide convex : {ContactSide::b, ContactSide::a}) {
     std::vector<CornerFace<Dim>> faces = CornerSearch<Dim>(points, convex, cell).run(wanted);
