@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import contact as ct
 from crack_motion import choose_carriers, extend, move_cracks
-from crossing import crosses_crack, segment_normal
+from crossing import crosses_crack, segment_normal, segments_met
 from parts import Crack, Grid, Particle, Symmetry, function
 from shapes import shape_2d
 
@@ -182,17 +182,19 @@ class Model:
                 folded = self.fold_at_held_faces(p.x, target, R, planes)
                 # the image of a crack is known behind a symmetry plane only: else the line goes to the mirror node
                 end = node if folded[0] == target else folded[0]
-                signature, found = self.crossings(p.x, self.grid.position(end))
+                end = self.grid.position(end)
+                signature, found = self.crossings(p.x, end)
                 target, flips, mirrors, offset = folded
                 p.pairs.append(((target, signature), S, G, flips, mirrors, offset))
                 for crack, side, segments in found:
                     key = (target, crack.index)
                     n, N = normal.setdefault(key, [0.0, 0.0]), original.setdefault(key, [0.0, 0.0])
-                    for k in segments:
+                    met = [s for k in segments for s in segments_met(tuple(p.x), end, crack.path(crack.plane), k)]
+                    for k in met:  # twice each, or with the neighbour at a vertex
                         now, then = segment_normal(crack.path(crack.plane), k), segment_normal(crack.path(crack.original), k)
                         for c in range(2):
-                            n[c] += R[c] * now[c]
-                            N[c] += R[c] * then[c]
+                            n[c] += 0.5 * R[c] * now[c]
+                            N[c] += 0.5 * R[c] * then[c]
                     side_sum[key] = side_sum.get(key, 0) + side
         self.side = {key: 1 if s >= 0 else -1 for key, s in side_sum.items()}
         self.normal = {key: self.unit_normal(key[0], n) for key, n in normal.items()}

@@ -61,6 +61,16 @@ def crosses_crack(p, n, vertices):
     return sign(above_minus_below), segments
 
 
+def segments_met(p, n, vertices, k):
+    """The crossed segment k, and its neighbour when the line goes through the vertex between them (k again when it does not)."""
+    last, other = len(vertices) - 2, k
+    if k > 0 and orient(p, n, vertices[k]) == 0:
+        other = k - 1
+    if k < last and orient(p, n, vertices[k + 1]) == 0:
+        other = k + 1
+    return k, other
+
+
 def segment_normal(vertices, k):
     """Unit normal (dy, -dx)/L from above to below of segment k."""
     dx = vertices[k + 1][0] - vertices[k][0]

@@ -283,7 +283,11 @@ std::vector<Cracked> cracks() {
       }
       const std::string law = "{ law = \"coulomb\", friction = 0.2 }";
       out.push_back({shape, axis, law, "0, 0.0625", "0.07, 0.11", true});  // its tip within a cell of the mirror
-      // Not a vertex on the mirror and on a node: which carriers it sees there is decided by ties that half and whole break otherwise.
+      for (const char* end : {"0.6, 0.41", "0.6, 0", "0.5, 0.6", "0.3, 0.7"}) {
+        out.push_back({shape, axis, law, "0, 0.03", end, true});
+        // Begins on a node. Not along a diagonal through nodes: those that lie on it count as below, left and right, where an image counts as above.
+        out.push_back({shape, axis, law, "0, 0", end, true});
+      }
       // Beside the mirror: fields count mass and momentum, whatever they are called.
       out.push_back({shape, axis, "\"bonded\"", "0.03, -0.91", "0.045, 0.93", false});
       out.push_back({shape, axis, "\"bonded\"", "0.02, -0.3", "0.4, 0.2", false});

@@ -72,10 +72,16 @@ class SegmentTest {
     if (boxes_apart(particle_, node, a_, b_)) return false;
     return node_above(a_, b_, node) != above_ && passes_between(particle_, node, a_, b_, tips_);
   }
-  void add_to(Crossing& crossing) const {
+  /// A line through a vertex crosses both segments that meet there, whichever counts.
+  void add_to(Crossing& crossing, const Vec<2>& node) const {
     ++(above_ ? crossing.above : crossing.below);
-    if (!crack_.normals.empty()) crossing.normal_sum += crack_.normals[segment_];
-    if (!crack_.original_normals.empty()) crossing.original_sum += crack_.original_normals[segment_];
+    std::size_t other = segment_;
+    const std::size_t count = crack_.segment_count();
+    if (!has_start(tips_) && orient_sign(particle_, node, a_) == 0) other = segment_ == 0 ? count - 1 : segment_ - 1;
+    if (!has_end(tips_) && orient_sign(particle_, node, b_) == 0) other = segment_ + 1 == count ? 0 : segment_ + 1;
+    if (!crack_.normals.empty()) crossing.normal_sum += (crack_.normals[segment_] + crack_.normals[other]) * 0.5;
+    if (!crack_.original_normals.empty())
+      crossing.original_sum += (crack_.original_normals[segment_] + crack_.original_normals[other]) * 0.5;
   }
 
  private:
@@ -91,7 +97,7 @@ class SegmentTest {
 void add_segment(const CrackPath& crack, std::size_t s, const Vec<2>& particle, const Vec<2>& node, Crossing& crossing) {
   if (boxes_apart(particle, node, crack.vertices[s], crack.vertices[s + 1])) return;
   const SegmentTest test(crack, s, particle);
-  if (test.crossed_to(node)) test.add_to(crossing);
+  if (test.crossed_to(node)) test.add_to(crossing, node);
 }
 
 }  // namespace
@@ -129,7 +135,7 @@ void cross_stencil(const CrackPath& crack, std::span<const FacetRef> facets, con
     if (boxes_apart(low, high, crack.vertices[s], crack.vertices[s + 1])) continue;
     const SegmentTest test(crack, s, particle);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (test.crossed_to(nodes[i])) test.add_to(crossings[i]);
+      if (test.crossed_to(nodes[i])) test.add_to(crossings[i], nodes[i]);
     }
   }
 }

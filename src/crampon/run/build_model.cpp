@@ -198,6 +198,7 @@ void build_cracks(const Problem& problem, const BuiltBodies<2>& bodies, BuiltMod
     for (VertexId v = 0; v + 1 < crack.plane.size(); ++v) crack.facets.push_back({v, v + 1});
     model.crack_laws.push_back(in.contact);
     crack.extension = extensions(crack, material);
+    crack.mirrored = mirrored_ends(crack, model);
     model.tractions.push_back(build_traction(problem, in, crack, material, 1e-9 * grid.smallest_cell(), errors));
     out.cracked.push_back(between_material(crack, material));
     out.state.cracks.list.push_back(std::move(crack));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "crampon/crack/symmetry_fold.hpp"
+
 namespace crampon {
 
 namespace {
@@ -71,6 +73,20 @@ std::array<double, 2> extensions(const Crack<2>& crack, const Material2D& materi
   };
   const std::size_t last = crack.plane.size() - 1;
   return {beyond(crack.plane[0], crack.plane[1]), beyond(crack.plane[last], crack.plane[last - 1])};
+}
+
+std::array<std::uint8_t, 2> mirrored_ends(const Crack<2>& crack, const Model<2>& model) {
+  if (crack.closed) return {};
+  const auto axes = [&](const Vec<2>& end) {
+    unsigned out = 0;
+    for (const SymmetryPlane& mirror : model.symmetries) {
+      Vec<2> on = end;
+      on[static_cast<std::size_t>(mirror.axis)] = mirror.at;
+      if (norm(end - on) < 1e-8 * model.grid.smallest_cell() && on_plane<2>(mirror, on)) out |= 1u << mirror.axis;
+    }
+    return static_cast<std::uint8_t>(out);
+  };
+  return {axes(crack.plane.front()), axes(crack.plane.back())};
 }
 
 std::vector<bool> between_material(const Crack<2>& crack, const Material2D& material) {

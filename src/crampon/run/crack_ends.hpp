@@ -2,11 +2,13 @@
 /// How cracks lie in the material at the start: which of their ends are no tips, and how much of them has material on both sides.
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "crampon/geometry/shape.hpp"
 #include "crampon/run/build_bodies.hpp"
 #include "crampon/state/cracks.hpp"
+#include "crampon/step/model.hpp"
 
 namespace crampon {
 
@@ -32,6 +34,9 @@ class Material2D {
 /// An end outside every body, or on the edge of one, is no tip: the crack goes on straight beyond it for all that ask what it cuts, as far
 /// as lines from particles to nodes reach, but not into material. How far beyond the start and the end, m; 0: a tip.
 std::array<double, 2> extensions(const Crack<2>& crack, const Material2D& material);
+
+/// Ends that lie on mirrors: Crack::mirrored.
+std::array<std::uint8_t, 2> mirrored_ends(const Crack<2>& crack, const Model<2>& model);
 
 /// Per vertex: does it have material on both sides, or lie on the edge of such a place?
 std::vector<bool> between_material(const Crack<2>& crack, const Material2D& material);

@@ -36,6 +36,8 @@ struct Crack {
   Carriers upper_carriers, lower_carriers;  ///< of the surface points
   /// How far the path goes on beyond its start and its end for those who ask what it cuts, m; 0: the end is a tip (run/crack_ends.hpp).
   std::array<double, 2> extension{};
+  /// Bit k of the start and of the end: it lies on a mirror across axis k, behind which the crack goes on as its image.
+  std::array<std::uint8_t, 2> mirrored{};
 };
 
 template <int Dim>

@@ -36,7 +36,15 @@ Vec<2> vertex_normal(const Crack<2>& crack, std::size_t v) {
   Vec<2> n{};
   if (v > 0 || crack.closed) n += segment_normal(crack.plane[v > 0 ? v - 1 : last - 1], crack.plane[v > 0 ? v : last]);
   if (v < last || crack.closed) n += segment_normal(crack.plane[v < last ? v : 0], crack.plane[v < last ? v + 1 : 1]);
-  return normalized(n);
+  // With the normal of the image, what is across a mirror cancels.
+  Vec<2> in_mirrors = n;
+  for (const std::size_t end : {0u, 1u}) {
+    if (v != (end == 0 ? 0 : last)) continue;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (crack.mirrored[end] >> k & 1u) in_mirrors[k] = 0;
+    }
+  }
+  return normalized(in_mirrors == Vec<2>{} ? n : in_mirrors);
 }
 
 ForNodes<NodeShare> nodes_around(const State<2>& state, const Model<2>& model, const Vec<2>& x) {
@@ -64,7 +72,7 @@ Vec<2> CrackSurfaces::beside(const Vec<2>& vertex, const Vec<2>& out) const {
   Vec<2> x = vertex + out * nudge_;
   for (const SymmetryPlane& plane : model_.symmetries) {
     const auto k = static_cast<std::size_t>(plane.axis);
-    if (std::fabs(vertex[k] - plane.at) < nudge_) x[k] = plane.at + plane.side * nudge_;
+    if (std::fabs(vertex[k] - plane.at) < nudge_) x[k] = plane.at + plane.side * 0.01 * nudge_;
   }
   return x;
 }

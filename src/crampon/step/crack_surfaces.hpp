@@ -29,7 +29,7 @@ class ForNodes {
   std::size_t count_ = 0;
 };
 
-/// Unit normal at a vertex, from above to below: the mean of the segments that meet there.
+/// Unit normal at a vertex, from above to below: the mean of the segments that meet there, behind a mirror the image of the last one.
 Vec<2> vertex_normal(const Crack<2>& crack, std::size_t vertex);
 
 /// A node as a crack point sees it: S and the node's place in the arrays.

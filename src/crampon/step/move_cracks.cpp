@@ -48,13 +48,7 @@ void fill_gaps(std::vector<std::optional<Vec<2>>>& moved) {
 /// A vertex that has drifted out from between its surface points goes back into their middle, along its normal. Where the faces have slid
 /// past each other by more than a cell, what was opposite at the start no longer says where the plane is.
 Vec<2> between_surfaces(const Crack<2>& crack, const Model<2>& model, std::size_t v) {
-  Vec<2> down = vertex_normal(crack, v);
-  // On a mirror the crack goes on as its image: the mean normal of both lies in the mirror.
-  for (const SymmetryPlane& mirror : model.symmetries) {
-    const auto k = static_cast<std::size_t>(mirror.axis);
-    if (std::fabs(crack.plane[v][k] - mirror.at) < 1e-8 * model.grid.smallest_cell()) down[k] = 0;
-  }
-  down = normalized(down);
+  const Vec<2> down = vertex_normal(crack, v);
   const double upper = dot(crack.upper[v] - crack.plane[v], down), lower = dot(crack.lower[v] - crack.plane[v], down);
   if ((upper <= 0 && lower >= 0) || std::fabs(opening_at(crack, v).sliding) > model.grid.smallest_cell()) return crack.plane[v];
   return crack.plane[v] + down * (0.5 * (upper + lower));
