@@ -16,6 +16,7 @@ import traceback
 import numpy as np
 
 import cramp
+from crack_motion import present_crack
 from emit import emit
 from option_cases import all_cases
 from vtk_read import read_series, read_vtp
@@ -30,12 +31,14 @@ def oracle_frames(case):
 
     def keep():
         particles = model.particles
+        x = [p.present(model.lead) for p in particles]
+        cracks = [present_crack(model, crack) for crack in model.cracks]
         stress = [p.material.stress() for p in particles]
-        frame = {"position": [p.x for p in particles], "velocity": [list(p.v) for p in particles],
-                 "displacement": [[p.x[k] - p.X[k] for k in range(2)] for p in particles],
+        frame = {"position": x, "velocity": [list(p.v) for p in particles],
+                 "displacement": [[now[k] - p.X[k] for k in range(2)] for now, p in zip(x, particles)],
                  "stress": [[s[0], s[1], s[2], s[3]] for s in stress]}
         for name in ("plane", "upper", "lower"):
-            points = [(x[0] - X[0], x[1] - X[1]) for crack in model.cracks for x, X in zip(getattr(crack, name), crack.original)]
+            points = [(x[0] - X[0], x[1] - X[1]) for crack in cracks for x, X in zip(getattr(crack, name), crack.original)]
             if points:
                 frame["crack " + name] = points
         frames.append(frame)

@@ -4,6 +4,7 @@ The plane moves with v = sum S v_cm where all nodes about have mass, else with t
 that a linear fit to the particles about it, on its side of all cracks, has there; the fit is made once. Ends that lie outside of all particles,
 or on the edge of one, are no tips: there the crack goes on for those who ask what it cuts.
 """
+import copy
 import math
 
 from crossing import segment_normal
@@ -104,27 +105,56 @@ def move_cracks(model):
         for k in range(2):
             total[k] += p[k]
     for crack in model.cracks:
-        upper, lower = ([carried(crack.original[k], held) if held else None for k, held in enumerate(crack.carriers[up])] for up in (1, -1))
-        plane = []
+        upper, lower, plane = carried_motion(crack, lambda p: p.x)
         for k, x in enumerate(crack.plane):
             v = node_average(model, x, momentum, mass)
-            surfaces = [[new[k][c] - old[k][c] for c in range(2)]
-                        for new, old in ((upper, crack.upper), (lower, crack.lower)) if new[k] is not None]
             if v is not None:
-                plane.append([model.dt * c for c in v])
-            else:
-                plane.append([sum(s[c] for s in surfaces) / len(surfaces) for c in range(2)] if surfaces else None)
-        plane = fill(plane)
-        for new, points in ((upper, crack.upper), (lower, crack.lower)):
-            for k, x in enumerate(points):
-                points[k] = tuple(x[c] + plane[k][c] for c in range(2)) if new[k] is None else tuple(new[k])
+                plane[k] = [model.dt * c for c in v]
+        move_points(crack, upper, lower, plane)
         if not crack.fixed:
-            crack.plane = [tuple(x[c] + d[c] for c in range(2)) for x, d in zip(crack.plane, plane)]
             crack.plane = [between_surfaces(model, crack, k) for k in range(len(crack.plane))]
 
 
-def carried(original, held):
-    return [original[c] + sum(w * signs[c] * (p.x[c] - p.X[c]) for p, signs, w in held) for c in range(2)]
+def carry_cracks(model):
+    """After positions of particles have been changed otherwise than by a step: surfaces go with their carriers, the plane with both."""
+    for crack in model.cracks:
+        move_points(crack, *carried_motion(crack, lambda p: p.x))
+
+
+def present_crack(model, crack):
+    """The crack with its points at the present time, which those that the step works with lead."""
+    if not model.lead:
+        return crack
+    now = copy.copy(crack)
+    now.upper, now.lower = list(crack.upper), list(crack.lower)
+    move_points(now, *carried_motion(crack, lambda p: p.present(model.lead)))
+    return now
+
+
+def carried_motion(crack, position):
+    """How far upper and lower points are from where their carriers are, and vertices of the plane with both; None: nothing says it."""
+    moved = []
+    for up, points in ((1, crack.upper), (-1, crack.lower)):
+        new = [carried(crack.original[k], held, position) if held else None for k, held in enumerate(crack.carriers[up])]
+        moved.append([None if x is None else [x[c] - old[c] for c in range(2)] for x, old in zip(new, points)])
+    plane = []
+    for sides in zip(*moved):
+        known = [s for s in sides if s is not None]
+        plane.append([sum(s[c] for s in known) / len(known) for c in range(2)] if known else None)
+    return moved[0], moved[1], plane
+
+
+def move_points(crack, upper, lower, plane):
+    plane = fill(plane)
+    for motion, points in ((upper, crack.upper), (lower, crack.lower)):
+        for k, x in enumerate(points):
+            points[k] = tuple(x[c] + (plane[k] if motion[k] is None else motion[k])[c] for c in range(2))
+    if not crack.fixed:
+        crack.plane = [tuple(x[c] + d[c] for c in range(2)) for x, d in zip(crack.plane, plane)]
+
+
+def carried(original, held, position):
+    return [original[c] + sum(w * signs[c] * (position(p)[c] - p.X[c]) for p, signs, w in held) for c in range(2)]
 
 
 def node_average(model, point, momentum, mass):

@@ -8,7 +8,7 @@ import math
 from types import SimpleNamespace
 
 import contact as ct
-from crack_motion import choose_carriers, extend, move_cracks
+from crack_motion import carry_cracks, choose_carriers, extend, move_cracks
 from crossing import crosses_crack, segment_normal, segments_met
 from parts import Crack, Grid, Particle, Symmetry, function
 from shapes import shape_2d
@@ -22,6 +22,7 @@ class Model:
         self.dt = case["dt"]
         self.t = 0.0
         self.k = 0
+        self.lead = 0.0  # s: positions of particles and crack points are those of the present time plus this
         self.update = case.get("stress_update", "usavg")
         self.positions = case.get("positions", "strain")
         self.shape = case.get("shape", "linear")
@@ -53,6 +54,13 @@ class Model:
     # ---------------------------------------------------------------- one step, N03 Appendix A in the order of N13
     def step(self):
         dt = self.dt
+        # Positions lead velocities by half a step, so that forces find them in its middle; not with N03 Eq. 30.
+        further = (dt / 2 if self.positions == "strain" else 0.0) - self.lead
+        if further:
+            self.lead += further
+            for p in self.particles:
+                p.x = [p.x[k] + further * p.v[k] for k in range(2)]
+            carry_cracks(self)
         self.assign_fields()                                   # Task 0
         self.project_momentum()                                # Task 1
         if self.order == "boundary_first":                     # Task 2
@@ -64,7 +72,7 @@ class Model:
             self.p_int = {key: list(p) for key, p in self.p.items()}
             self.impose_velocity(self.t, task=2)
         if self.update == "usf":
-            self.update_stress(dt, end=False)
+            self.update_stress(dt - further, end=False)
         elif self.update == "usavg":
             self.update_stress(dt / 2, end=False)
         self.project_forces()                                  # Task 3
@@ -87,7 +95,7 @@ class Model:
         if self.positions == "strain":                         # USL: the velocity of Task 4 is the one that strains
             moved = self.moved_positions()
         if self.update in ("usl", "musl"):
-            self.update_stress(dt)
+            self.update_stress(dt + further)
         elif self.update == "usavg":
             self.update_stress(dt / 2)
         self.store_contact_state()
@@ -415,11 +423,12 @@ class Model:
     def project_forces(self):
         """N03 Eq. 28: internal, body and particle forces, damping of the momentum after Task 2."""
         self.f = {key: [0.0, 0.0] for key in self.m}
-        b = [f(self.t) for f in self.body_force]
-        kappa = self.damping(self.t)
+        middle = self.t + self.lead  # the time of positions
+        b = [f(middle) for f in self.body_force]
+        kappa = self.damping(middle)
         for p in self.particles:
             xx, yy, xy = (p.volume * s for s in p.material.force_stress())
-            external = [p.mass * b[k] + sum(share * f[k](self.t) for share, f in p.load) for k in range(2)]
+            external = [p.mass * b[k] + sum(share * f[k](middle) for share, f in p.load) for k in range(2)]
             for key, S, G, R, _, offset in p.pairs:
                 f = self.f[key]
                 for k in range(2):  # on the image behind a face: what follows the face, and damping of its own velocity
@@ -462,6 +471,10 @@ class Model:
                     v = R[i] * self.p[key][i] / self.m[key] + offset[1 if end else 0][i]
                     for j in range(2):
                         L[i][j] += v * G[j]
+            if p.material.follows_deformation and self.positions == "strain":
+                # Taken at the start of the particle's path (USL, MUSL) or at its end (USF); I + A + A^2/2 of the laws is right in its middle.
+                ahead = {"usl": dt / 2, "musl": dt / 2, "usf": -dt / 2, "usavg": 0.0}[self.update]
+                L = [[L[i][j] - ahead * (L[i][0] * L[0][j] + L[i][1] * L[1][j]) for j in range(2)] for i in range(2)]
             p.material.update(L, dt)
 
     # ---------------------------------------------------------------- what tests look at

@@ -8,6 +8,7 @@ import math
 
 
 class Elastic:
+    follows_deformation = False
     """Isotropic constants; plane stress replaces lambda by 2 lambda G/(lambda + 2 G) (kinematics.md 5)."""
 
     def __init__(self, spec, analysis):
@@ -58,6 +59,8 @@ class SmallStrain(Elastic):
 
 
 class FiniteDeformation(Elastic):
+    follows_deformation = True
+
     def __init__(self, spec, analysis):
         super().__init__(spec, analysis)
         self.follows_deformation = True

@@ -59,6 +59,10 @@ class Particle:
         self.load = []  # force functions
         self.pairs = []
 
+    def present(self, lead):
+        """Position at the present time, which the one that the step works with leads."""
+        return [self.x[k] - lead * self.v[k] for k in range(2)]
+
     def area(self):
         return self.material.area_ratio() * self.volume / self.thickness
 

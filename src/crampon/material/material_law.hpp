@@ -45,6 +45,9 @@ class MaterialLaw {
   virtual bool wave_speed_changes() const = 0;
   virtual Pack wave_speed(StressState, int dimension, const Pack* stress, const Pack* history) const = 0;
 
+  /// Does it follow the deformation gradient, rather than add up small strains?
+  virtual bool follows_deformation() const { return false; }
+
   virtual void initialise(int dimension, Pack* stress, Pack* history) const = 0;
   /// Advances stress and history. False when a particle turned inside out (volume ratio <= 0) or its numbers went bad.
   virtual bool update(StressState, const StressBatch<2>&) const = 0;
@@ -80,6 +83,9 @@ class LawKernel final : public MaterialLaw {
       (void)dimension, (void)stress, (void)history;
       return splat(law_.wave_speed(s));
     }
+  }
+  bool follows_deformation() const override {
+    return requires { Law::starts_with_deformation_gradient; };
   }
   void initialise(int dimension, Pack* stress, Pack* history) const override {
     for (int c = 0; c < (dimension == 2 ? stress_size<2> : stress_size<3>); ++c) stress[c] = splat(0.);

@@ -138,7 +138,10 @@ void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state,
     if (model.rigid_bodies[r].prescribes) add_condition(problem.rigids[r], r, model);
   }
   state.rigid.resize(model.rigid_bodies.size());
-  for (std::size_t r = 0; r < state.rigid.size(); ++r) state.rigid[r].start.centre = model.rigid_bodies[r].centre;
+  for (std::size_t r = 0; r < state.rigid.size(); ++r) {
+    state.rigid[r].start.centre = state.rigid[r].start.pivot = model.rigid_bodies[r].centre;
+    state.rigid[r].present = state.rigid[r].start;
+  }
   start_rigid_motion(state, model, 0);
   for (RigidMotion<Dim>& motion : state.rigid) motion.end = motion.start;
 }

@@ -109,7 +109,7 @@ template <int Dim>
 void fill_sample(const State<Dim>& state, std::size_t p, const PackReport& report, std::uint32_t material, Sample& s) {
   const Particles<Dim>& particles = state.particles;
   const auto l = p % lanes;
-  const Vec<Dim> x = particles.position(p), v = particles.velocity(p);
+  const Vec<Dim> x = particles.present_position(p), v = particles.velocity(p);
   s.x = s.X = s.v = {};
   for (std::size_t k = 0; k < Dim; ++k) s.x[k] = x[k], s.v[k] = v[k], s.X[k] = particles.original[p][k];
   const Pack* stress = &particles.stress[p / lanes * stress_size<Dim>];
@@ -228,7 +228,8 @@ CrackFrame sample_cracks<2>(const State<2>& state) {
   frame.time = state.time;
   frame.step = state.step;
   Field opening{"opening", "m", 1, {}}, sliding{"sliding", "m", 1, {}};
-  for (const Crack<2>& crack : state.cracks.list) {
+  for (const Crack<2>& leading : state.cracks.list) {
+    const Crack<2> crack = present_crack(state, leading);
     frame.names.push_back(crack.name);
     for (std::size_t v = 0; v < crack.plane.size(); ++v) {
       const auto put = [](std::vector<double>& out, const Vec<2>& x) { out.insert(out.end(), {x[0], x[1], 0.}); };
@@ -302,6 +303,7 @@ std::uint64_t hash_state(const State<Dim>& state) {
   Hash hash;
   hash.add(state.time);
   hash.add(state.step);
+  hash.add(state.particles.lead);
   for (const std::uint32_t p : slots_by_id(state)) {
     hash.add(state.particles.id[p]);
     hash.add(state.particles.position(p).c);

@@ -207,7 +207,7 @@ class Engine final : public Simulation {
     }
     for (const Vec<Dim>& load : total_loads(state_, model_, state_.time)) row.insert(row.end(), load.c.begin(), load.c.end());
     if constexpr (Dim == 2) {
-      for (std::size_t c = 0; c < state_.cracks.size(); ++c) add_openings(state_.cracks.list[c], cracked_[c], row);
+      for (std::size_t c = 0; c < state_.cracks.size(); ++c) add_openings(present_crack(state_, state_.cracks.list[c]), cracked_[c], row);
     }
     for (const Probe& probe : probes_) {
       const auto& [ids, f] = probed(probe.quantity);

@@ -22,10 +22,13 @@ inline constexpr int motion_packs = Dim == 2 ? 1 : 2;
 inline constexpr std::uint32_t padding_id = std::numeric_limits<std::uint32_t>::max();
 
 /// All arrays have a multiple of four particles; padding particles (id == padding_id) have no mass and sit on a real one.
+/// Positions lead the present time (docs/theory/step.md, time of positions): the step works with position(), all who look at the state from
+/// outside ask for present_position().
 template <int Dim>
 struct Particles {
   std::size_t packs = 0;
   int history_size = 0;              ///< Packs of material history per pack
+  double lead = 0;                   ///< of positions before the present time, s
   AlignedArray<Pack> motion;         ///< [particle][motion_packs]: m, m/s
   AlignedArray<Pack> mass_volume;    ///< [pack][2]: mass kg, initial volume m3
   AlignedArray<Pack> stress;         ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
@@ -60,6 +63,7 @@ struct Particles {
     for (int k = 0; k < Dim; ++k) x[k] = motion[p * motion_packs<Dim>][k];
     return x;
   }
+  Vec<Dim> present_position(std::size_t p) const { return position(p) - velocity(p) * lead; }
   Vec<Dim> velocity(std::size_t p) const {
     Vec<Dim> v;
     for (int k = 0; k < Dim; ++k) v[k] = Dim == 2 ? motion[p][2 + k] : motion[2 * p + 1][k];

@@ -25,6 +25,7 @@ Turn<Dim> no_turn() {
 template <int Dim>
 struct RigidPose {
   Vec<Dim> centre;  ///< m
+  Vec<Dim> pivot;   ///< the centre at the time of the velocity, about which it turns, m
   Turn<Dim> turn = no_turn<Dim>();
   Vec<Dim> velocity;  ///< of the centre, m/s
   Spin spin;          ///< rad/s
@@ -36,7 +37,7 @@ struct RigidPose {
     return x;
   }
   Vec<Dim> velocity_at(const Vec<Dim>& x) const {
-    const Vec<Dim> r = x - centre;
+    const Vec<Dim> r = x - pivot;
     Vec<Dim> v = velocity;
     v[0] -= spin[2] * r[1];
     v[1] += spin[2] * r[0];
@@ -49,10 +50,12 @@ struct RigidPose {
   }
 };
 
-/// A rigid body over a step.
+/// A rigid body over a step. `start` and `end` have the velocities of the start and the end of the step, and places that lead these times as
+/// positions of particles do.
 template <int Dim>
 struct RigidMotion {
   RigidPose<Dim> start, end;
+  RigidPose<Dim> present, present_end;  ///< places at the start and the end of the step
 };
 
 /// What bodies that deform feel from a rigid one.

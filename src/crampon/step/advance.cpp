@@ -11,6 +11,7 @@
 #include "crampon/step/find_contacts.hpp"
 #include "crampon/step/guard.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/lead_positions.hpp"
 #include "crampon/step/ledger.hpp"
 #include "crampon/step/mirrored_forces.hpp"
 #include "crampon/step/move_cracks.hpp"
@@ -66,7 +67,9 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   const StressUpdate scheme = model.stress_update;
   const bool stress_first = scheme == StressUpdate::usf || scheme == StressUpdate::usavg;
   const bool stress_last = scheme != StressUpdate::usf;
-  const double stress_dt = scheme == StressUpdate::usavg ? 0.5 * dt : dt;  // N03 Eq. 35: half at a time for USAVG
+  const double lead = position_lead(model, dt), further = lead - state.particles.lead;
+  // N03 Eq. 35: half at a time for USAVG. The others strain in time with positions: USF to where they are, USL and MUSL along with them.
+  const double stress_dt = scheme == StressUpdate::usavg ? 0.5 * dt : scheme == StressUpdate::usf ? dt - further : dt + further;
   std::vector<Vec<Dim>> load_values;
   Vec<Dim> body_force;
   double damping = 0;
@@ -75,12 +78,13 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   using B = std::size_t;
   phases.serial("prepare", [&] {
     if (state.must_reorder) reorder<Dim, Shape>(state, model);
-    evaluate_conditions(state, model, dt);
     start_rigid_motion(state, model, dt);
-    evaluate_loads(state, model, load_values, body_force, damping);
+    if (state.step == 0) choose_carriers<Dim, Shape>(state, model);
+    lead_positions<Dim, Shape>(state, model, dt);
+    evaluate_conditions(state, model, dt);
+    evaluate_loads(state.time + lead, model, load_values, body_force, damping);
     check_prescribed(state, model, load_values, body_force, damping);
     assign_velocity_fields<Dim, Shape>(state, model, dt);  // Task 0
-    choose_carriers(state, model);
     record_initial_volume<Dim, Shape>(state, model);
   });
   if (!model.faces.empty()) {
@@ -116,7 +120,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   });
   phases.serial("move cracks", [&] {  // Task 8
     move_cracks(state, model, dt);
-    update_tractions(state, model, dt);
+    update_tractions(state, model, state.time + dt);
   });
   end_rigid_motion(state);
   state.time += dt;
@@ -130,7 +134,7 @@ StiffestVertex find_stiffest_vertex(State<Dim>& state, const Model<Dim>& model) 
   if (!model.any_tractions()) return {};
   if (state.must_reorder) reorder<Dim, Shape>(state, model);
   assign_velocity_fields<Dim, Shape>(state, model, 1.);  // no face moves yet: any time step
-  choose_carriers(state, model);
+  choose_carriers<Dim, Shape>(state, model);
   parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) { project_momentum<Dim, Shape>(state, model, b); });
   parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) { assemble_momentum<Dim, Shape>(state, b); });
   return spread_tractions<Dim, Shape>(state, model);

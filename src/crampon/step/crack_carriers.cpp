@@ -9,7 +9,9 @@
 #include "crampon/shape/linear.hpp"
 #include "crampon/step/assemble.hpp"
 #include "crampon/step/crack_surfaces.hpp"
+#include "crampon/step/instantiate.hpp"
 #include "crampon/step/packs.hpp"
+#include "crampon/step/view_cracks.hpp"
 
 namespace crampon {
 
@@ -205,11 +207,7 @@ class CarrierChoice {
   ParticleMap map_;
 };
 
-}  // namespace
-
-template <>
-void choose_carriers<2>(State<2>& state, const Model<2>& model) {
-  if (state.cracks.empty() || !state.cracks.list.front().upper_carriers.empty()) return;
+void choose_for_all(State<2>& state, const Model<2>& model) {
   const CarrierChoice choice(state, model);
   const CrackSurfaces surfaces(state, model);
   for (Crack<2>& crack : state.cracks.list) {
@@ -221,6 +219,17 @@ void choose_carriers<2>(State<2>& state, const Model<2>& model) {
       crack.upper_carriers[v] = choice.carriers(x, surfaces.beside(x, -down));
       crack.lower_carriers[v] = choice.carriers(x, surfaces.beside(x, down));
     }
+  }
+}
+
+}  // namespace
+
+template <int Dim, class Shape>
+void choose_carriers(State<Dim>& state, const Model<Dim>& model) {
+  if (state.cracks.empty() || !state.cracks.list.front().upper_carriers.empty()) return;
+  if constexpr (Dim == 2) {  // the input admits cracks in 2D only
+    view_cracks(state, model, Shape::width == 3 ? 1 : 0);
+    choose_for_all(state, model);
   }
 }
 
@@ -237,11 +246,13 @@ void drop_lost_carriers(State<Dim>& state) {
   }
 }
 
-Vec<2> carried_displacement(const State<2>& state, const std::vector<Carrier>& carriers) {
+Vec<2> carried_displacement(const State<2>& state, const std::vector<Carrier>& carriers, PositionTime time) {
   Vec<2> sum{};
   for (const Carrier& c : carriers) {
     const std::uint32_t slot = state.places.slot_of_id[c.particle];
-    const Vec<2> u = state.particles.position(slot) - state.particles.original[slot];
+    const Particles<2>& particles = state.particles;
+    const Vec<2> x = time == PositionTime::present ? particles.present_position(slot) : particles.position(slot),
+                 u = x - particles.original[slot];
     for (int k = 0; k < 2; ++k) sum[k] += (c.flip >> k & 1u ? -c.weight : c.weight) * u[k];
   }
   return sum;
@@ -292,8 +303,9 @@ void find_nodes_of_point(const State<2>& state, const Model<2>& model, const std
   }
 }
 
-template <>
-void choose_carriers<3>(State<3>&, const Model<3>&) {}  // the input admits cracks in 2D only
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void choose_carriers<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
 template void drop_lost_carriers<2>(State<2>&);
 template void drop_lost_carriers<3>(State<3>&);
 template void find_nodes_of_point<LinearShape>(const State<2>&, const Model<2>&, const std::vector<Carrier>&, std::vector<NodeOfPoint>&);

@@ -10,16 +10,19 @@
 
 namespace crampon {
 
-/// Chooses the carriers of all surface points, once, when velocity fields are first assigned (State::crack_view).
-template <int Dim>
+/// Chooses the carriers of all surface points, once, where particles and cracks are at the start. Fills State::crack_view.
+template <int Dim, class Shape>
 void choose_carriers(State<Dim>& state, const Model<Dim>& model);
 
 /// Takes its carriers from a point that has lost one, since they no longer say where it is. After particles were removed.
 template <int Dim>
 void drop_lost_carriers(State<Dim>& state);
 
+/// Where positions are taken: in the middle of the coming step, with which the step works, or at the present time.
+enum class PositionTime { leading, present };
+
 /// Displacement of a point since the start, m. It has carriers.
-Vec<2> carried_displacement(const State<2>& state, const std::vector<Carrier>& carriers);
+Vec<2> carried_displacement(const State<2>& state, const std::vector<Carrier>& carriers, PositionTime time);
 
 /// A part of what moves a surface point: the velocity of a node in one field, with component k reversed where bit k of flip is set.
 struct NodeOfPoint {

@@ -88,7 +88,7 @@ void add_tractions(State<Dim>& state, std::size_t b) {
 }
 
 template <>
-void update_tractions<2>(State<2>& state, const Model<2>& model, double dt) {
+void update_tractions<2>(State<2>& state, const Model<2>& model, double end) {
   if (!model.any_tractions()) return;
   CohesiveTotals& totals = state.cohesive;
   totals = {};
@@ -104,12 +104,12 @@ void update_tractions<2>(State<2>& state, const Model<2>& model, double dt) {
       if (history.failed == 0 && t.between[v]) {
         const CrackOpening opening = opening_at(crack, v);
         const Vec<3> place{{crack.plane[v][0], crack.plane[v][1], 0}};
-        const Traction now = update_traction(traction.law, {opening.opening, opening.sliding}, state.time + dt, place, history);
+        const Traction now = update_traction(traction.law, {opening.opening, opening.sliding}, end + state.particles.lead, place, history);
         const Vec<2> down = vertex_normal(crack, v), tangent{{-down[1], down[0]}};
         t.force[v] = (down * now.normal - tangent * now.shear) * area[v];
         t.stored[v] = now.stored;
         if (history.failed != 0) {
-          state.events.push_back({state.time + dt, c, crack.plane[v], history.dissipated_normal, history.dissipated_shear});
+          state.events.push_back({end, c, present_crack(state, crack).plane[v], history.dissipated_normal, history.dissipated_shear});
           t.force[v] = {};
           t.stored[v] = 0;
         }

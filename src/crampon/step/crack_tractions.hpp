@@ -27,8 +27,8 @@ StiffestVertex spread_tractions(State<Dim>& state, const Model<Dim>& model);
 template <int Dim>
 void add_tractions(State<Dim>& state, std::size_t block);
 
-/// Task 8, after the cracks have moved: tractions at the end of the step, what is stored and dissipated, and failures. Serial.
+/// Task 8, after the cracks have moved: tractions where they are now, what is stored and dissipated, and failures. end: of the step, s. Serial.
 template <int Dim>
-void update_tractions(State<Dim>& state, const Model<Dim>& model, double dt);
+void update_tractions(State<Dim>& state, const Model<Dim>& model, double end);
 
 }  // namespace crampon

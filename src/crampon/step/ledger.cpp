@@ -9,14 +9,14 @@
 namespace crampon {
 
 template <int Dim>
-void evaluate_loads(const State<Dim>& state, const Model<Dim>& model, std::vector<Vec<Dim>>& loads, Vec<Dim>& body_force, double& damping) {
+void evaluate_loads(double time, const Model<Dim>& model, std::vector<Vec<Dim>>& loads, Vec<Dim>& body_force, double& damping) {
   loads.assign(model.loads.size(), {});
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
-    for (int k = 0; k < Dim; ++k) loads[l][k] = model.loads[l].value[static_cast<std::size_t>(k)](state.time, {});
+    for (int k = 0; k < Dim; ++k) loads[l][k] = model.loads[l].value[static_cast<std::size_t>(k)](time, {});
   }
   body_force = {};
-  for (std::size_t k = 0; k < model.body_force.size(); ++k) body_force[k] = model.body_force[k](state.time, {});
-  damping = model.damped ? model.damping(state.time, {}) : 0.;
+  for (std::size_t k = 0; k < model.body_force.size(); ++k) body_force[k] = model.body_force[k](time, {});
+  damping = model.damped ? model.damping(time, {}) : 0.;
 }
 
 template <int Dim, class Shape>
@@ -86,7 +86,7 @@ void add_pack(const State<Dim>& state, const Model<Dim>& model, const Run& run, 
     const std::size_t p = pack * lanes + l;
     if (!chosen(p)) continue;
     const double m = particles.mass(p);
-    const Vec<Dim> v = particles.velocity(p), x = particles.position(p);
+    const Vec<Dim> v = particles.velocity(p), x = particles.present_position(p);
     sum.mass += m;
     sum.kinetic += 0.5 * m * dot(v, v);
     sum.strain += strain[l];
@@ -120,10 +120,10 @@ void book_departure(State<Dim>& state, const Model<Dim>& model, const Run& run, 
       state, model, run, particle / lanes, [&](std::size_t p) { return p == particle; }, state.left);
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                                       \
-  template void evaluate_loads<DIM>(const State<DIM>&, const Model<DIM>&, std::vector<Vec<DIM>>&, Vec<DIM>&, double&); \
-  template void close_ledger<DIM>(State<DIM>&, const Model<DIM>&);                                                     \
-  template ParticleSums<DIM> sum_particles<DIM>(const State<DIM>&, const Model<DIM>&);                                 \
+#define CRAMPON_INSTANTIATE(DIM)                                                                            \
+  template void evaluate_loads<DIM>(double, const Model<DIM>&, std::vector<Vec<DIM>>&, Vec<DIM>&, double&); \
+  template void close_ledger<DIM>(State<DIM>&, const Model<DIM>&);                                          \
+  template ParticleSums<DIM> sum_particles<DIM>(const State<DIM>&, const Model<DIM>&);                      \
   template void book_departure<DIM>(State<DIM>&, const Model<DIM>&, const Run&, std::size_t);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)

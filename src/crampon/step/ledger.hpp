@@ -6,9 +6,9 @@
 
 namespace crampon {
 
-/// Loads (N per share), body force (m/s2) and damping (1/s) at the start of the step.
+/// Loads (N per share), body force (m/s2) and damping (1/s) at a time, s: that of the positions at the start of the step.
 template <int Dim>
-void evaluate_loads(const State<Dim>& state, const Model<Dim>& model, std::vector<Vec<Dim>>& loads, Vec<Dim>& body_force, double& damping);
+void evaluate_loads(double time, const Model<Dim>& model, std::vector<Vec<Dim>>& loads, Vec<Dim>& body_force, double& damping);
 
 /// In the first step, and when contact by volume is measured against the body as it was: nodal volumes of the uncut body at the
 /// start, sum V_p S (CONVENTIONS 10).

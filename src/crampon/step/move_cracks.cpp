@@ -54,44 +54,63 @@ Vec<2> between_surfaces(const Crack<2>& crack, const Model<2>& model, std::size_
   return crack.plane[v] + down * (0.5 * (upper + lower));
 }
 
-/// How far the surface points move, as their carriers say.
+/// How far the points of a crack move; none: nothing says it.
+struct CrackMotion {
+  std::vector<std::optional<Vec<2>>> upper, lower, plane;
+};
+
+/// How far surface points are from where their carriers are.
 std::vector<std::optional<Vec<2>>> surface_motion(const State<2>& state, const std::vector<Vec<2>>& surface,
-                                                  const std::vector<Vec<2>>& original, const Carriers& carriers) {
+                                                  const std::vector<Vec<2>>& original, const Carriers& carriers, PositionTime time) {
   std::vector<std::optional<Vec<2>>> moved(surface.size());
-  for (std::size_t v = 0; v < surface.size(); ++v) {
-    if (!carriers[v].empty()) moved[v] = original[v] + carried_displacement(state, carriers[v]) - surface[v];
+  for (std::size_t v = 0; v < carriers.size(); ++v) {
+    if (!carriers[v].empty()) moved[v] = original[v] + carried_displacement(state, carriers[v], time) - surface[v];
   }
   return moved;
 }
 
+/// Of the surfaces with their carriers, and of the plane with both of them.
+CrackMotion carried_motion(const State<2>& state, const Crack<2>& crack, PositionTime time) {
+  CrackMotion m{surface_motion(state, crack.upper, crack.original, crack.upper_carriers, time),
+                surface_motion(state, crack.lower, crack.original, crack.lower_carriers, time),
+                {}};
+  for (std::size_t v = 0; v < crack.plane.size(); ++v) {
+    if (m.upper[v] && m.lower[v]) {
+      m.plane.emplace_back((*m.upper[v] + *m.lower[v]) * 0.5);
+    } else {
+      m.plane.push_back(m.upper[v] ? m.upper[v] : m.lower[v]);
+    }
+  }
+  return m;
+}
+
+void move_points(CrackMotion motion, Crack<2>& crack) {
+  fill_gaps(motion.plane);
+  for (std::size_t v = 0; v < crack.plane.size(); ++v) {
+    crack.upper[v] += motion.upper[v] ? *motion.upper[v] : *motion.plane[v];
+    crack.lower[v] += motion.lower[v] ? *motion.lower[v] : *motion.plane[v];
+    if (!crack.fixed) crack.plane[v] += *motion.plane[v];
+  }
+}
+
+void close_ends(Crack<2>& crack) {
+  if (!crack.closed) return;
+  for (auto* x : {&crack.plane, &crack.upper, &crack.lower}) x->back() = x->front();
+}
+
 void move_crack(const State<2>& state, const Model<2>& model, double dt, Crack<2>& crack) {
   const std::size_t n = crack.plane.size();
-  auto upper = surface_motion(state, crack.upper, crack.original, crack.upper_carriers);
-  auto lower = surface_motion(state, crack.lower, crack.original, crack.lower_carriers);
-  std::vector<std::optional<Vec<2>>> plane(n);
+  CrackMotion motion = carried_motion(state, crack, PositionTime::leading);
   parallel_for(n, model.threads, [&](std::size_t v) {
-    if (const auto velocity = plane_velocity(state, model, crack.plane[v])) {
-      plane[v] = *velocity * dt;
-    } else if (upper[v] && lower[v]) {
-      plane[v] = (*upper[v] + *lower[v]) * 0.5;
-    } else {
-      plane[v] = upper[v] ? upper[v] : lower[v];
-    }
+    if (const auto velocity = plane_velocity(state, model, crack.plane[v])) motion.plane[v] = *velocity * dt;
   });
-  fill_gaps(plane);
-  for (std::size_t v = 0; v < n; ++v) {
-    crack.upper[v] += upper[v] ? *upper[v] : *plane[v];
-    crack.lower[v] += lower[v] ? *lower[v] : *plane[v];
-    if (!crack.fixed) crack.plane[v] += *plane[v];
-  }
+  move_points(std::move(motion), crack);
   if (!crack.fixed) {
     std::vector<Vec<2>> between(n);
     for (std::size_t v = 0; v < n; ++v) between[v] = between_surfaces(crack, model, v);
     crack.plane = std::move(between);
   }
-  if (crack.closed) {
-    for (auto* x : {&crack.plane, &crack.upper, &crack.lower}) x->back() = x->front();
-  }
+  close_ends(crack);
 }
 
 }  // namespace
@@ -107,6 +126,29 @@ void move_cracks<2>(State<2>& state, const Model<2>& model, double dt) {
 }
 
 template <>
-void move_cracks<3>(State<3>&, const Model<3>&, double) {}  // the input admits cracks in 2D only
+void carry_cracks<2>(State<2>& state) {
+  for (Crack<2>& crack : state.cracks.list) {
+    move_points(carried_motion(state, crack, PositionTime::leading), crack);
+    close_ends(crack);
+  }
+}
+
+template <>
+Crack<2> present_crack<2>(const State<2>& state, Crack<2> crack) {
+  if (state.particles.lead == 0) return crack;
+  move_points(carried_motion(state, crack, PositionTime::present), crack);
+  close_ends(crack);
+  return crack;
+}
+
+// The input admits cracks in 2D only.
+template <>
+void move_cracks<3>(State<3>&, const Model<3>&, double) {}
+template <>
+void carry_cracks<3>(State<3>&) {}
+template <>
+Crack<3> present_crack<3>(const State<3>&, Crack<3> crack) {
+  return crack;
+}
 
 }  // namespace crampon

@@ -11,6 +11,16 @@ namespace crampon {
 template <int Dim>
 void move_cracks(State<Dim>& state, const Model<Dim>& model, double dt);
 
+/// After the positions of particles have been changed otherwise than by a step: surface points go with their carriers, and vertices of the plane
+/// with both of them.
+template <int Dim>
+void carry_cracks(State<Dim>& state);
+
+/// The crack with its points at the present time, which those that the step works with lead (docs/theory/step.md, time of positions): what all
+/// ask for who look at the state from outside.
+template <int Dim>
+Crack<Dim> present_crack(const State<Dim>& state, Crack<Dim> crack);
+
 /// Opening and sliding of a vertex, m: the vector from the lower to the upper surface point along the upward normal and the tangent
 /// of the crack plane there.
 struct CrackOpening {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "crampon/step/lead_positions.hpp"
+
 namespace crampon {
 
 namespace {
@@ -44,26 +46,43 @@ Turn<Dim> turned(const Turn<Dim>& turn, const Spin& a) {
   return out;
 }
 
+/// The place of a body after it has moved on for `span` from a time, by Simpson's rule.
+template <int Dim>
+RigidPose<Dim> moved(RigidPose<Dim> pose, const RigidBody<Dim>& body, double from, double span) {
+  const auto integrated = [&](auto rate) {
+    return (rate(body, from) + rate(body, from + 0.5 * span) * 4. + rate(body, from + span)) * (span / 6);
+  };
+  pose.centre += integrated(velocity_of<Dim>);
+  pose.turn = turned<Dim>(pose.turn, integrated(spin_of<Dim>));
+  return pose;
+}
+
 }  // namespace
 
 template <int Dim>
 void start_rigid_motion(State<Dim>& state, const Model<Dim>& model, double dt) {
-  const double t = state.time;
+  const double t = state.time, lead = position_lead(model, dt);
   for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
     const RigidBody<Dim>& body = model.rigid_bodies[b];
-    RigidPose<Dim>&start = state.rigid[b].start, &end = state.rigid[b].end;
+    auto& [start, end, present, present_end] = state.rigid[b];
+    present_end = moved(present, body, t, dt);
+    start = moved(present, body, t, lead);
     start.velocity = velocity_of(body, t);
     start.spin = spin_of(body, t);
+    start.pivot = present.centre;
+    end = moved(present_end, body, t + dt, lead);
     end.velocity = velocity_of(body, t + dt);
     end.spin = spin_of(body, t + dt);
-    end.centre = start.centre + (start.velocity + velocity_of(body, t + 0.5 * dt) * 4. + end.velocity) * (dt / 6);
-    end.turn = turned<Dim>(start.turn, (start.spin + spin_of(body, t + 0.5 * dt) * 4. + end.spin) * (dt / 6));
+    end.pivot = present_end.centre;
   }
 }
 
 template <int Dim>
 void end_rigid_motion(State<Dim>& state) {
-  for (RigidMotion<Dim>& motion : state.rigid) motion.start = motion.end;
+  for (RigidMotion<Dim>& motion : state.rigid) {
+    motion.start = motion.end;
+    motion.present = motion.present_end;
+  }
 }
 
 #define CRAMPON_INSTANTIATE(DIM)                                                 \

@@ -3,6 +3,30 @@
 
 namespace crampon {
 
+/// Velocity gradients of a pack are taken where particles are at the start of the step. What carries them from there to where they move
+/// (USL, MUSL) has the deformation I + L dt, what brought them there (USF) the inverse of I - L dt, and of the two halves of USAVG one ends and
+/// the other begins there. Laws of large deformation apply I + L dt + (L dt)^2/2, right for L in the middle of the path: L - ahead L^2, with
+/// half the step as `ahead`, negative for USF.
+template <int Dim>
+void take_to_middle(Pack* L, double ahead) {
+  Pack square[Dim * Dim];
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j) {
+      Pack sum = L[i * Dim] * L[j];
+      for (int k = 1; k < Dim; ++k) sum = fused(L[i * Dim + k], L[k * Dim + j], sum);
+      square[i * Dim + j] = sum;
+    }
+  }
+  for (int c = 0; c < Dim * Dim; ++c) L[c] = fused(splat(-ahead), square[c], L[c]);
+}
+
+/// By which the middle of the path is ahead of where gradients are taken, s. Nothing where positions do not lead (N03 Eq. 30).
+template <int Dim>
+double way_to_middle(const Model<Dim>& model, double dt) {
+  if (model.positions != PositionUpdate::strain || model.stress_update == StressUpdate::usavg) return 0;
+  return model.stress_update == StressUpdate::usf ? -0.5 * dt : 0.5 * dt;
+}
+
 /// Calls the material law on batches of a few packs of one run: gradients are found while walking, the law sees a batch at once,
 /// and `then(pack, stencil, targets)` follows for every pack of it with the new stress. offsets: of folded pairs, for the time of the velocities.
 template <int Dim, class Shape, class Then>
@@ -11,6 +35,7 @@ void update_stress(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
   constexpr int batch_size = Dim == 2 ? 8 : 2;
   alignas(64) Pack L[batch_size * Dim * Dim];
   bool healthy = true;
+  const double ahead = way_to_middle(model, dt);
   Particles<Dim>& particles = state.particles;
   for_batches<batch_size, Dim, Shape>(
       state, model, b, [&](const auto& stencils, const Run& run, std::uint32_t first, std::uint32_t end, const auto* factors) {
@@ -18,13 +43,17 @@ void update_stress(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
           gradient<Dim, Shape>(Stencil<Dim, Shape>(factors[k - first]), stencils.targets(k), offsets.data(), velocity,
                                L + (k - first) * Dim * Dim);
         }
+        const MaterialLaw& law = *model.materials[run.material].law;
+        if (ahead != 0 && law.follows_deformation()) {
+          for (std::uint32_t k = first; k < end; ++k) take_to_middle<Dim>(L + (k - first) * Dim * Dim, ahead);
+        }
         const StressBatch<Dim> batch{static_cast<int>(end - first),
                                      dt,
                                      L,
                                      &particles.stress[std::size_t{first} * stress_size<Dim>],
                                      particles.history.data() + std::size_t{first} * particles.history_size,
                                      particles.history_size};
-        if (!model.materials[run.material].law->update(model.stress_state, batch)) healthy = false;
+        if (!law.update(model.stress_state, batch)) healthy = false;
         for (std::uint32_t k = first; k < end; ++k) then(k, Stencil<Dim, Shape>(factors[k - first]), stencils.targets(k));
       });
   if (!healthy) state.scratch[b].health.inverted = true;

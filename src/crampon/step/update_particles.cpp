@@ -140,7 +140,7 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
                           });
   }
   if (!model.rigid_bodies.empty()) {
-    place_rigid_particles(state, model, b, [&](const Vec<Dim>& x) {
+    place_rigid_particles(state, model, b, &RigidMotion<Dim>::end, [&](const Vec<Dim>& x) {
       for (int k = 0; k < Dim; ++k) low[k] = std::fmin(low[k], x[k]), high[k] = std::fmax(high[k], x[k]);
     });
   }
