@@ -48,6 +48,17 @@ tolerance = 1e-12
 source = "mass 4 kg at 1 m/s"
 """
 
+WALLS = """
+[[rigid]]
+name = "tool"
+shape = { kind = "disk", centre = [6.5, 6.5], radius = 0.6 }
+velocity = [0, -1]
+[[wall]]
+name = "floor"
+point = [0, 2.9]
+normal = [0, 1]
+"""
+
 
 class CliTest(unittest.TestCase):
     def setUp(self):
@@ -323,11 +334,26 @@ class CliTest(unittest.TestCase):
                                  (("--frame", "0", "1", "-o", "a.png"), "2 pictures"), (("--all", "--panel", "1x2"), "no room for 3 frames"),
                                  (("--fringes", "--quantity", "velocity"), "both given")):
             self.assertIn(words, self.call("draw", "small.results", *arguments, code=2)[1], arguments)
+        for option in (("--range", "0", "1"), ("--symmetric",), ("--palette", "grey")):  # of numbers that are names
+            self.assertIn(f"{option[0]} has no effect on", self.call("draw", "small.results", "--quantity", "body", *option, code=2)[1])
+        self.assertIn("names", self.call("draw", "small.results", "--profile", "x", "--quantity", "body", code=2)[1])
         self.assertFalse((self.folder / "a.png").exists())
         # A name without an extension is a folder, for one picture too.
         for arguments in (("--frame", "1"), ("--panel", "1x2"), history, profile):
             made, _ = self.call("draw", "small.results", *arguments, "-o", "into")
             self.assertTrue(made.startswith("into/") and made.endswith(".png\n"), made)
+
+    def test_draw_of_walls_and_tools(self):
+        (self.folder / "flat.toml").write_text(SMALL + WALLS)
+        self.call("run", "flat.toml", "-q")
+        for arguments in (("--quantity", "body"), ("--all",), ("--panel", "1x3"), ("--magnify", "3"), ("--profile", "x"), ("--quantity", "velocity_y")):
+            out, err = self.call("draw", "flat.results", *arguments)
+            self.assertEqual(err, "", arguments)
+            self.assertTrue(out.endswith(".png\n"))
+        # Results whose input this program cannot read are drawn all the same, and it says what is missing.
+        resolved = self.folder / "flat.results/input.resolved.toml"
+        resolved.write_text("future = true\n" + resolved.read_text())
+        self.assertIn("walls and the shapes of rigid bodies are not drawn", self.call("draw", "flat.results")[1])
 
     def test_draw_says_what_is_wrong(self):
         self.call("run", "small.toml", "-q")

@@ -12,6 +12,7 @@
 #include "crampon/output/results_folder.hpp"
 #include "crampon/output/run_record.hpp"
 #include "draw_arguments.hpp"
+#include "draw_moments.hpp"
 #include "draw_plots.hpp"
 
 namespace crampon::app {
@@ -48,66 +49,88 @@ DrawOptions picture_options(const DrawArguments& arguments, const std::string& t
   return options;
 }
 
-/// A frame with its cracks, in memory.
-struct Moment {
-  PointFrame particles;
-  std::optional<CrackFrame> cracks;
-  Snapshot snapshot() const { return {&particles, cracks ? &*cracks : nullptr}; }
-};
-
-Moment read_moment(const ResultsFolder& folder, const PvdEntry& entry, const std::vector<PvdEntry>& cracks) {
-  Moment moment{folder.read_particles(entry), std::nullopt};
-  const auto found = std::find_if(cracks.begin(), cracks.end(), [&entry](const PvdEntry& c) { return c.time == entry.time; });
-  if (found != cracks.end()) moment.cracks = folder.read_cracks(*found);
-  return moment;
+/// What the picture cannot show of the rigid bodies and walls.
+void tell_what_is_not_drawn(const Moments& moments, const Moment& moment) {
+  if (!moments.problem()) return;
+  const Problem& problem = *moments.problem();
+  if (moment.rigid.empty() && problem.rigids.size() + problem.walls.size() > 0)
+    tell("these results do not tell where walls and rigid bodies are; walls are not drawn, and rigid bodies by their particles");
+  for (const RigidShape& rigid : moment.rigid) {
+    if (!RigidView(rigid, 1, 0).shows_an_edge())
+      tell(fmt::format("the wall \"{}\" is not drawn: pictures look along z, straight at its face", rigid.name));
+  }
 }
 
-/// One colour range for a whole series, so that its pictures can be compared: found frame by frame, as all of them may not fit in memory.
-void fix_range(DrawOptions& options, const ResultsFolder& folder, const std::vector<PvdEntry>& frames,
-               const std::vector<std::size_t>& chosen) {
-  if (chosen.size() < 2 || options.quantity == "fringes" || (options.lowest && options.highest)) return;
-  double lowest = INFINITY, highest = -INFINITY;
+/// Names of what the quantity's numbers stand for, where the frame does not tell them: materials, by the bodies that are made of them.
+std::vector<std::string> category_names(const Moments& moments, const PointFrame& frame, const std::string& quantity) {
+  std::vector<std::string> names;
+  if (quantity != "material" || !moments.problem()) return names;
+  const std::vector<BodyInput>& bodies = moments.problem()->bodies;
+  const std::vector<double> body = evaluate_quantity(frame, "body").values, material = evaluate_quantity(frame, quantity).values;
+  for (std::size_t p = 0; p < material.size(); ++p) {
+    const auto number = static_cast<std::size_t>(material[p]), of = static_cast<std::size_t>(body[p]);
+    if (number >= names.size()) names.resize(number + 1);
+    names[number] = of < bodies.size() ? bodies[of].material : "rigid";
+  }
+  return names;
+}
+
+/// A category has no range, and no palette.
+void check_colour_options(const DrawArguments& arguments) {
+  for (const auto& [name, given] :
+       {std::pair{"--range", !arguments.range.empty()}, {"--symmetric", arguments.symmetric}, {"--palette", !arguments.palette.empty()}}) {
+    if (given)
+      throw UsageError(
+          fmt::format("{} has no effect on \"{}\": its numbers are names, each of which has a colour", name, arguments.quantity));
+  }
+}
+
+std::optional<std::array<double, 4>> grid_window(const std::optional<Problem>& problem) {
+  if (!problem || problem->grid.origin.size() < 2 || problem->grid.size.size() < 2) return std::nullopt;
+  const std::vector<double>&low = problem->grid.origin, &size = problem->grid.size;
+  return std::array<double, 4>{low[0], low[0] + size[0], low[1], low[1] + size[1]};
+}
+
+/// One window and one colour range for a whole series, so that its pictures can be compared: found frame by frame, as all of them may not
+/// fit in memory.
+PictureExtent common_extent(const Moments& moments, const std::vector<std::size_t>& chosen, const DrawOptions& options) {
+  PictureExtent extent;
   for (const std::size_t i : chosen) {
-    for (const double value : evaluate_quantity(folder.read_particles(frames[i]), options.quantity, options.fringe_constant).values) {
-      if (!std::isfinite(value)) continue;
-      lowest = std::min(lowest, value);
-      highest = std::max(highest, value);
-    }
+    const Moment moment = moments.read(i);
+    extent.include(picture_extent(moment.snapshot(), options));
   }
-  if (options.range == ColourRange::symmetric) {
-    highest = std::max(std::abs(lowest), std::abs(highest));
-    lowest = -highest;
-  }
-  if (!(lowest < highest)) return;  // one value everywhere: each picture finds a range around it
-  if (!options.lowest) options.lowest = lowest;
-  if (!options.highest) options.highest = highest;
+  return extent;
 }
 
 void draw_pictures(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& title) {
-  const std::vector<PvdEntry> frames = folder.particle_frames(), cracks = folder.crack_frames();
-  if (frames.empty()) throw UsageError(fmt::format("{}: there are no frames to draw", folder.path().string()));
-  const std::vector<std::size_t> chosen = choose_frames(arguments, frames);
+  const Moments moments(folder);
+  if (moments.frames().empty()) throw UsageError(fmt::format("{}: there are no frames to draw", folder.path().string()));
+  const std::vector<std::size_t> chosen = choose_frames(arguments, moments.frames());
   if (chosen.size() > 1 && arguments.panel.empty() && fs::path(arguments.output).extension() == ".png")
     throw UsageError(fmt::format("--output {}: a file is named for {} pictures; name a folder, or put them into one picture by --panel",
                                  arguments.output, chosen.size()));
-  const std::string unit = evaluate_quantity(folder.read_particles(frames[chosen.front()]), coloured_by(arguments)).unit;
+  const Moment first = moments.read(chosen.front());
+  const std::string unit = evaluate_quantity(first.particles, coloured_by(arguments)).unit;
+  if (is_category(first.particles, coloured_by(arguments))) check_colour_options(arguments);
   DrawOptions options = picture_options(arguments, title, unit.empty() ? "1" : unit);
+  options.grid = grid_window(moments.problem());
+  options.category_names = category_names(moments, first.particles, options.quantity);
+  tell_what_is_not_drawn(moments, first);
 
   if (!arguments.panel.empty()) {
-    std::deque<Moment> moments;
+    std::deque<Moment> in_memory;
     std::vector<Snapshot> snapshots;
-    snapshots.reserve(chosen.size());
-    for (const std::size_t i : chosen) snapshots.push_back(moments.emplace_back(read_moment(folder, frames[i], cracks)).snapshot());
+    for (const std::size_t i : chosen) snapshots.push_back(in_memory.emplace_back(moments.read(i)).snapshot());
     const fs::path file = picture_file(arguments, folder, options.quantity + "_panel.png");
     draw_panel(snapshots, options, file);
     made(file);
     return;
   }
-  fix_range(options, folder, frames, chosen);
+  if (chosen.size() > 1) options.extent = common_extent(moments, chosen, options);
   for (const std::size_t i : chosen) {
     const fs::path file = picture_file(arguments, folder, fmt::format("{}_{:06}.png", options.quantity, i));
-    const Moment moment = read_moment(folder, frames[i], cracks);
-    draw_frame(moment.particles, moment.cracks ? &*moment.cracks : nullptr, options, file);
+    const Moment moment = moments.read(i);
+    draw_frame(moment.snapshot(), options, file);
     made(file);
   }
 }

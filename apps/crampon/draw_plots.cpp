@@ -14,6 +14,7 @@
 #include "crampon/output/plot.hpp"
 #include "crampon/output/quantity.hpp"
 #include "draw_arguments.hpp"
+#include "draw_moments.hpp"
 
 namespace crampon::app {
 namespace {
@@ -96,27 +97,34 @@ void draw_history(const DrawArguments& arguments, const ResultsFolder& folder, c
 }
 
 void draw_profile(const DrawArguments& arguments, const ResultsFolder& folder, const std::string& title) {
-  const std::vector<PvdEntry> frames = folder.particle_frames();
+  const Moments moments(folder);
+  const std::vector<PvdEntry>& frames = moments.frames();
   if (frames.empty()) throw UsageError(fmt::format("{}: there are no frames to draw", folder.path().string()));
   const std::vector<std::size_t> chosen = choose_frames(arguments, frames);
   const auto axis = static_cast<std::size_t>(arguments.profile[0] - 'x');
   PlotOptions options = plot_options(arguments, title);
   options.x_name = arguments.profile;
   options.x_unit = "m";
-  options.y_name = coloured_by(arguments);
+  const std::string shown = coloured_by(arguments);
+  options.y_name = spelt_out(shown);
   const std::optional<std::array<double, 4>> window = window_of(arguments, "m", "m");
 
   std::vector<Curve> curves;
   double lowest = INFINITY, highest = -INFINITY, time = 0;
   for (const std::size_t i : chosen) {
-    const PointFrame frame = folder.read_particles(frames[i]);
+    const Moment moment = moments.read(i);
+    const PointFrame& frame = moment.particles;
     if (axis >= static_cast<std::size_t>(frame.dimension)) throw UsageError("--profile z: these results are in the plane; choose x or y");
-    const Quantity quantity = evaluate_quantity(frame, options.y_name, arguments.fringe_constant.value_or(paper_fringe_constant));
+    if (is_category(frame, shown))
+      throw UsageError(fmt::format("--profile: the numbers of \"{}\" are names and have no place on an axis; draw a picture of it", shown));
+    const Quantity quantity = evaluate_quantity(frame, shown, arguments.fringe_constant.value_or(paper_fringe_constant));
+    const std::vector<bool> rigid = moment.of_rigid_bodies();  // they have no stress, and pictures do not colour them either
     Curve& curve = curves.emplace_back();
     curve.label = quantity_text(frame.time, frames[chosen.back()].time, "s");
     curve.style = CurveStyle::marks;
     std::map<double, Strip> strips;
     for (std::size_t p = 0; p < quantity.values.size(); ++p) {
+      if (rigid[p]) continue;
       std::array<double, 3> at{};
       frame.positions.copy(3 * p, 3, at.data());
       if (window && !(at[0] >= (*window)[0] && at[0] <= (*window)[1] && at[1] >= (*window)[2] && at[1] <= (*window)[3])) continue;

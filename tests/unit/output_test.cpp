@@ -476,7 +476,7 @@ TEST_F(Output, FailedWriteNamesFileAndReasonAndLeavesTheOldOne) {
   {
     const SmallFiles limit(700);
     frame_error = message_of([&] { results.write_particles(big, Precision::full); });
-    picture_error = message_of([&] { draw_frame(big, nullptr, {.quantity = "id"}, folder / "picture.png"); });
+    picture_error = message_of([&] { draw_frame({&big}, {.quantity = "id"}, folder / "picture.png"); });
     history_error = message_of([&] {
       for (int k = 1; k < 1000; ++k) history.write_row({k + 1. / 3, 2. / 3});
     });

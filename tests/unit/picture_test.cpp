@@ -1,7 +1,5 @@
 // Pictures and plots show what they should, pixel by pixel.
 
-#include <png.h>
-
 #include <cmath>
 #include <limits>
 
@@ -10,6 +8,7 @@
 #include "crampon/output/history.hpp"
 #include "crampon/output/plot.hpp"
 #include "output_cases.hpp"
+#include "png_pixels.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 // Fontconfig keeps its tables to the end of the process.
@@ -19,6 +18,8 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfi
 
 namespace crampon {
 namespace {
+
+using test::expect_colour, test::Pixels;
 
 TEST(DisplayScale, PrefixesAndPowers) {
   const auto shown = [](double v, const char* unit) { return quantity_text(v, std::abs(v), unit); };
@@ -96,33 +97,6 @@ TEST(Quantities, DerivedValuesByHand) {
   EXPECT_TRUE(contains(message_of([&] { evaluate_quantity(PointFrame{}, "fringes"); }), "needs the field \"stress\""));
 }
 
-// A PNG as 8-bit RGB.
-struct Pixels {
-  explicit Pixels(const fs::path& path) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    if (png_image_begin_read_from_file(&image, path.c_str()) == 0) throw std::runtime_error(image.message);
-    image.format = PNG_FORMAT_RGB;
-    bytes.resize(PNG_IMAGE_SIZE(image));
-    width = static_cast<int>(image.width);
-    height = static_cast<int>(image.height);
-    png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr);
-  }
-  std::array<int, 3> at(double x, double y) const {
-    const std::size_t i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
-    return {bytes.at(i), bytes.at(i + 1), bytes.at(i + 2)};
-  }
-  std::vector<unsigned char> bytes;
-  int width = 0, height = 0;
-};
-
-// One step of eight bits: cairo and the test may round a half either way.
-void expect_colour(const std::array<int, 3>& seen, const Colour& wanted, const std::string& what) {
-  EXPECT_NEAR(seen[0], 255 * wanted.red, 1) << what << " red";
-  EXPECT_NEAR(seen[1], 255 * wanted.green, 1) << what << " green";
-  EXPECT_NEAR(seen[2], 255 * wanted.blue, 1) << what << " blue";
-}
-
 // A line is at least two pixels wide; antialiasing leaves one of its own colour within a pixel of the place.
 void expect_line(const Pixels& pixels, const std::array<double, 2>& at, const Colour& wanted, const std::string& what) {
   int nearest = 1000;
@@ -173,7 +147,7 @@ CrackFrame crack_through_block(double gap) {
 TEST_F(Output, PictureShowsEachParticleInItsColour) {
   const PointFrame frame = block(0);
   for (const Palette palette : {Palette::uniform, Palette::grey}) {
-    const PictureMap map = draw_frame(frame, nullptr, {.quantity = "signal", .palette = palette}, folder / "p.png");
+    const PictureMap map = draw_frame({&frame, nullptr}, {.quantity = "signal", .palette = palette}, folder / "p.png");
     const Pixels pixels(folder / "p.png");
     EXPECT_EQ(pixels.width, map.width);
     EXPECT_EQ(pixels.height, map.height);
@@ -197,7 +171,7 @@ TEST_F(Output, OpenCrackIsWhiteBetweenItsSurfacesAndClosedOneALine) {
   const CrackFrame open = crack_through_block(gap), closed = crack_through_block(0);
   // Particles drawn without displacement would cover the gap: the white comes from the crack itself.
   const PointFrame frame = block(0);
-  PictureMap map = draw_frame(frame, &open, {.quantity = "signal"}, folder / "open.png");
+  PictureMap map = draw_frame({&frame, &open}, {.quantity = "signal"}, folder / "open.png");
   const Pixels with_gap(folder / "open.png");
   for (const double y : {3.7e-3, 4e-3, 4.3e-3}) {
     const auto at = map.panels[0].pixel(5.5e-3, y);
@@ -208,7 +182,7 @@ TEST_F(Output, OpenCrackIsWhiteBetweenItsSurfacesAndClosedOneALine) {
   const auto body = map.panels[0].pixel(5.5e-3, 5.5e-3);
   expect_colour(with_gap.at(body[0], body[1]), map.colour(5 + 10 * 5), "above the crack");
 
-  map = draw_frame(frame, &closed, {.quantity = "signal"}, folder / "closed.png");
+  map = draw_frame({&frame, &closed}, {.quantity = "signal"}, folder / "closed.png");
   const Pixels without(folder / "closed.png");
   const auto line = map.panels[0].pixel(5.5e-3, 4e-3);
   expect_line(without, line, {0, 0, 0}, "closed crack");
@@ -217,7 +191,7 @@ TEST_F(Output, OpenCrackIsWhiteBetweenItsSurfacesAndClosedOneALine) {
 
   // Surfaces that overlap leave no gap to fill.
   const CrackFrame overlapping = crack_through_block(-gap);
-  map = draw_frame(frame, &overlapping, {.quantity = "signal"}, folder / "overlap.png");
+  map = draw_frame({&frame, &overlapping}, {.quantity = "signal"}, folder / "overlap.png");
   const auto middle = map.panels[0].pixel(5.5e-3, 4.25e-3);
   expect_colour(Pixels(folder / "overlap.png").at(middle[0], middle[1]), map.colour(5 + 10 * 4), "between overlapping surfaces");
 }
@@ -227,17 +201,17 @@ TEST_F(Output, MagnifiedDisplacementsMoveParticlesAndCracks) {
   const PointFrame frame = block(gap);
   CrackFrame crack = crack_through_block(gap);
   const DrawOptions options{.quantity = "signal", .magnification = 10};
-  const PictureMap map = draw_frame(frame, &crack, options, folder / "m.png");
+  const PictureMap map = draw_frame({&frame, &crack}, options, folder / "m.png");
   const Pixels pixels(folder / "m.png");
   const auto gap_at = map.panels[0].pixel(5.5e-3, 4.8e-3);  // the gap reaches from 3 to 5 mm
   expect_colour(pixels.at(gap_at[0], gap_at[1]), white, "magnified gap");
   const auto particle = map.panels[0].pixel(5.5e-3, 5.5e-3);  // the row of y = 4.5 mm, moved by 1 mm
   expect_colour(pixels.at(particle[0], particle[1]), map.colour(5 + 10 * 4), "moved particle");
   crack.original.clear();
-  EXPECT_THROW(draw_frame(frame, &crack, options, folder / "n.png"), std::invalid_argument);
+  EXPECT_THROW(draw_frame({&frame, &crack}, options, folder / "n.png"), std::invalid_argument);
   PointFrame without = frame;
   without.fields.pop_back();
-  const std::string message = message_of([&] { draw_frame(without, nullptr, options, folder / "n.png"); });
+  const std::string message = message_of([&] { draw_frame({&without, nullptr}, options, folder / "n.png"); });
   EXPECT_TRUE(contains(message, "need the field \"displacement\"")) << message;
   EXPECT_FALSE(fs::exists(folder / "n.png"));
 }
@@ -249,7 +223,7 @@ TEST_F(Output, StretchedParticlesFillTheirDeformedSize) {
   f.particle_size = {1e-3, 1e-3, 1e-3};
   f.fields = {{"signal", "", 1, {1}}, {"deformation_gradient", "", 9, {3, 0, 0, 0, 1, 0, 0, 0, 1}}};
   const DrawOptions options{.quantity = "signal", .window = {{-3e-3, 3e-3, -2e-3, 2e-3}}};
-  PictureMap map = draw_frame(f, nullptr, options, folder / "f.png");
+  PictureMap map = draw_frame({&f, nullptr}, options, folder / "f.png");
   const auto inside = map.panels[0].pixel(1.4e-3, 0.4e-3), beyond = map.panels[0].pixel(1.6e-3, 0), above = map.panels[0].pixel(0, 0.6e-3);
   const Pixels pixels(folder / "f.png");
   expect_colour(pixels.at(inside[0], inside[1]), map.colour(1), "stretched along x");
@@ -269,7 +243,7 @@ TEST_F(Output, FringePictureIsDarkAndBrightByTheFormula) {
     for (const double s : {0., 0., 0., differences[i] / 2, 0., 0.}) stress.values.push_back(s);  // in shear: 4 sxy^2
   }
   f.fields = {stress};
-  const PictureMap map = draw_frame(f, nullptr, {.quantity = "fringes"}, folder / "f.png");
+  const PictureMap map = draw_frame({&f, nullptr}, {.quantity = "fringes"}, folder / "f.png");
   const Pixels pixels(folder / "f.png");
   const std::vector<double> brightness{1, 0.5, 0, 1};
   for (std::size_t i = 0; i < 4; ++i) {

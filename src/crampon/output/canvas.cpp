@@ -39,12 +39,12 @@ void Canvas::line(double x0, double y0, double x1, double y1, double width) {
   cairo_stroke(context());
 }
 
-void Canvas::fill_box(const Box& box) {
+void Canvas::fill_box(const PixelBox& box) {
   cairo_rectangle(context(), box.left, box.top, box.width, box.height);
   cairo_fill(context());
 }
 
-void Canvas::stroke_box(const Box& box, double width) {
+void Canvas::stroke_box(const PixelBox& box, double width) {
   cairo_set_line_width(context(), width);
   cairo_rectangle(context(), box.left, box.top, box.width, box.height);
   cairo_stroke(context());
@@ -69,6 +69,17 @@ void Canvas::text(double x, double y, const std::string& text, double size, Alig
   if (align_y == AlignY::bottom) y -= font.descent;
   cairo_move_to(context(), x, y);
   cairo_show_text(context(), text.c_str());
+  remember(text, x, y);
+}
+
+void Canvas::remember(const std::string& text, double x, double y) {
+  if (text.empty()) return;
+  cairo_text_extents_t ink;
+  cairo_text_extents(context(), text.c_str(), &ink);
+  double x0 = x + ink.x_bearing, y0 = y + ink.y_bearing, x1 = x0 + ink.width, y1 = y0 + ink.height;
+  cairo_user_to_device(context(), &x0, &y0);  // as it may be turned by a right angle
+  cairo_user_to_device(context(), &x1, &y1);
+  texts_.push_back({text, {std::min(x0, x1), std::min(y0, y1), std::abs(x1 - x0), std::abs(y1 - y0)}});
 }
 
 void Canvas::text_upwards(double x, double y, const std::string& label, double size) {
@@ -86,6 +97,20 @@ double Canvas::text_width(const std::string& text, double size) const {
   return extents.x_advance;
 }
 
+double Canvas::fitting_size(const std::string& text, double size, double room) const {
+  return std::min(size, size * room / std::max(1., text_width(text, size)));
+}
+
+std::string Canvas::shortened(std::string text, double size, double room) const {
+  if (text_width(text, size) <= room) return text;
+  while (!text.empty() && text_width(text + "…", size) > room) {
+    // A character of UTF-8: the bytes after its first one begin with the bits 10.
+    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0U) == 0x80U) text.pop_back();
+    if (!text.empty()) text.pop_back();
+  }
+  return text + "…";
+}
+
 void Canvas::save(const std::filesystem::path& path) const {
   check(cairo_status(context()));
   cairo_surface_flush(surface());
@@ -93,6 +118,10 @@ void Canvas::save(const std::filesystem::path& path) const {
   check(cairo_surface_write_to_png_stream(surface(), append_bytes, &png));
   mark_picture(png);
   write_file(path, png);
+}
+
+LabelFont label_font(const Canvas& canvas, double size) {
+  return {[&canvas, size](const std::string& label) { return canvas.text_width(label, size); }, size};
 }
 
 double widest(const Canvas& canvas, const std::vector<std::string>& texts, double size) {

@@ -57,12 +57,19 @@ DisplayScale display_scale(double largest, const std::string& unit) {
   if (!dimensionless && takes_prefix(unit)) {
     const bool kilogram = unit.starts_with("kg");
     if (kilogram) exponent += 3;  // prefixes go to the gram
-    const int k = std::clamp(exponent / 3 + no_prefix, 0, static_cast<int>(prefixes.size()) - 1);
-    exponent = 3 * (k - no_prefix) - (kilogram ? 3 : 0);
-    return {std::pow(10., exponent), prefixes[static_cast<std::size_t>(k)] + (kilogram ? plain.substr(1) : plain)};
+    const int k = exponent / 3 + no_prefix;
+    if (kilogram) exponent -= 3;
+    if (k >= 0 && k < static_cast<int>(prefixes.size()))
+      return {std::pow(10., exponent), prefixes[static_cast<std::size_t>(k)] + (kilogram ? plain.substr(1) : plain)};
   }
   if (exponent >= -3 && exponent <= 3 && largest >= 0.01 && largest < 1e4) return {1, plain};
   return {std::pow(10., exponent), "×10" + superscript(exponent) + (plain.empty() ? "" : " " + plain)};
+}
+
+std::string spelt_out(std::string name) {
+  if (name == "von_mises") return "von Mises stress";
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 std::string label_with_unit(const std::string& name, const std::string& unit) {

@@ -13,8 +13,11 @@ struct DisplayScale {
 };
 
 /// The scale by which numbers up to largest (an absolute value, SI) read as 1 to 999.
-/// Prefixes go to units that start with a linear m, s, N, Pa, J, W, Hz or kg; others get a power of ten when needed.
+/// Prefixes go to units that start with a linear m, s, N, Pa, J, W, Hz or kg; others, and what lies beyond all prefixes, get a power of ten.
 DisplayScale display_scale(double largest, const std::string& unit);
+
+/// A quantity's or a column's name as words: "stress xx", "von Mises stress".
+std::string spelt_out(std::string name);
 
 /// "name (unit)", or the name alone without a unit.
 std::string label_with_unit(const std::string& name, const std::string& unit);

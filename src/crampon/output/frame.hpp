@@ -1,6 +1,7 @@
 #pragma once
 /// Snapshots of a run in plain arrays: what the writers and the pictures work from. Nothing here knows the engine.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,6 +19,12 @@ struct Field {
   Numbers values;
 };
 
+/// Where a rigid body or wall is: the point that began at X is at centre + turn (X - start).
+struct RigidPlace {
+  std::array<double, 3> start{}, centre{};                ///< its centre at the start and now, m
+  std::array<double, 9> turn{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< by rows
+};
+
 /// A set of points (particles or nodes) with fields; points in the order of their ids, so that frames can be compared.
 struct PointFrame {
   double time = 0;  ///< s
@@ -26,6 +33,7 @@ struct PointFrame {
   Numbers positions;                    ///< 3 per point, m
   std::vector<Field> fields;            ///< particles always have "id" and "body"
   std::vector<std::string> body_names;  ///< what the numbers in "body" stand for; empty for nodes
+  std::vector<RigidPlace> rigid;        ///< rigid bodies, then walls, in the order of the input; empty for nodes
   double cell = 0;                      ///< grid spacing, m (largest axis), for drawing
   Numbers particle_size;                ///< edge lengths of an undeformed particle, 3 per point, m; may be empty (nodes)
 };

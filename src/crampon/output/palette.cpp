@@ -82,6 +82,17 @@ Colour palette_colour(Palette palette, double t) {
   return (palette == Palette::uniform ? uniform : diverging)[static_cast<std::size_t>(std::lround(t * table_size))];
 }
 
+Colour category_colour(std::size_t k) {
+  // Okabe and Ito (2008) without black, which is for lines; a light one beside a dark one.
+  static const std::vector<Colour> first{{0.337, 0.706, 0.914}, {0.902, 0.624, 0}, {0, 0.62, 0.451},    {0.941, 0.894, 0.259},
+                                         {0, 0.447, 0.698},     {0.835, 0.369, 0}, {0.8, 0.475, 0.655}, {0.75, 0.86, 0.75}};
+  if (k < first.size()) return first[k];
+  // Hues by the golden angle never come round to the same; three lightnesses part neighbours in hue.
+  const std::size_t beyond = k - first.size();
+  static constexpr std::array<double, 3> lightness{0.5, 0.4, 0.88};
+  return srgb_from_oklab(polar(lightness[beyond % 3], 0.12, 318 + 137.50776 * static_cast<double>(beyond)));
+}
+
 const std::vector<Colour>& curve_colours() {
   static const std::vector<Colour> colours{{0, 0, 0},           {0, 0.447, 0.698}, {0.835, 0.369, 0},    {0, 0.62, 0.451},
                                            {0.8, 0.475, 0.655}, {0.902, 0.624, 0}, {0.337, 0.706, 0.914}};

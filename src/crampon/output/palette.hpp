@@ -1,6 +1,7 @@
 #pragma once
 /// Colours for numbers.
 
+#include <cstddef>
 #include <vector>
 
 namespace crampon {
@@ -10,6 +11,9 @@ struct Colour {
   double red = 0, green = 0, blue = 0;
 };
 
+/// Of rigid bodies and walls, under their hatching.
+inline constexpr Colour rigid_colour{0.8, 0.8, 0.81};
+
 enum class Palette {
   uniform,    ///< dark violet over teal to yellow: equal steps look equal, lightness rises throughout, safe for colour-blind eyes
   grey,       ///< black to white, as N03's figures
@@ -18,6 +22,9 @@ enum class Palette {
 
 /// Colour at t in [0, 1] (clamped). NaN is magenta.
 Colour palette_colour(Palette palette, double t);
+
+/// Colours for categories, told apart as well as their number allows: the first eight by all common kinds of colour vision.
+Colour category_colour(std::size_t k);
 
 /// Coordinates of a colour in the OKLab space (B. Ottosson, 2020), where distances match seen differences.
 struct OkLab {

@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace crampon {
 namespace {
 
 constexpr double smallest_plot = 160;  // px; less leaves no room for ticks
 constexpr double smallest_bar = 220;   // px, height
-
-std::vector<std::string> labels_of(const Ticks& ticks) {
-  std::vector<std::string> labels;
-  for (const double t : ticks.at) labels.push_back(tick_label(t, ticks.step));
-  return labels;
-}
 
 // The number of columns whose picture comes nearest to a screen's shape.
 int choose_columns(std::size_t count, double aspect) {
@@ -30,9 +26,20 @@ int choose_columns(std::size_t count, double aspect) {
   return best;
 }
 
+// As many names as there is room for under the legend's title.
+void list_names(PictureLayout& p, const Side& side, double height, double room, const Canvas& ruler) {
+  const double text = p.sizes.text;
+  p.legend_row = 1.6 * text;
+  const auto most = std::max<std::size_t>(2, static_cast<std::size_t>(height / p.legend_row)) - 1;
+  p.legend.clear();
+  const bool all = side.names.size() <= most;
+  for (std::size_t k = 0; k < (all ? side.names.size() : most - 1); ++k) p.legend.push_back(ruler.shortened(side.names[k], text, room));
+  if (!all) p.legend.push_back(fmt::format("{} more", side.names.size() - p.legend.size()));
+}
+
 }  // namespace
 
-PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, const BarScale& bar, const DrawOptions& options) {
+PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, const Side& side, const DrawOptions& options) {
   PictureLayout p;
   p.sizes.text = std::clamp(options.width / 70., 11., 40.);
   p.sizes.gap = 0.5 * p.sizes.text;
@@ -41,10 +48,11 @@ PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, c
   const double wide = window[1] - window[0], high = window[3] - window[2];
   p.columns = options.columns > 0 ? std::min(options.columns, static_cast<int>(count)) : choose_columns(count, wide / high);
   p.rows = (static_cast<int>(count) + p.columns - 1) / p.columns;
-  p.length = display_scale(std::max({std::abs(window[0]), std::abs(window[1]), std::abs(window[2]), std::abs(window[3])}), "m");
-
+  // Both axes show lengths by one prefix.
+  const double largest = std::max({std::abs(window[0]), std::abs(window[1]), std::abs(window[2]), std::abs(window[3])});
   const Canvas ruler(1, 1);
-  const double between = count > 1 ? 1.4 * text : 0, head = 1.9 * text, bar_width = 1.2 * text;
+  const LabelFont font = label_font(ruler, text);
+  const double between = count > 1 ? 1.4 * text : 0, head = 2.2 * text, bar_width = 1.2 * text;
   const bool own_title = count > 1 && !options.title.empty();
   const double top = gap + (own_title ? 2.2 * text : 0), bottom = p.sizes.tick + 3.2 * text + gap;
   double left = 5 * text, right = 8 * text, plot_width = 0, plot_height = 0;
@@ -64,14 +72,19 @@ PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, c
     plot_height = std::floor(plot_height);
     const double extra_x = plot_width / p.scale - wide, extra_y = plot_height / p.scale - high;
     p.window = {window[0] - extra_x / 2, window[1] + extra_x / 2, window[2] - extra_y / 2, window[3] + extra_y / 2};
-    const double unit = p.length.factor;
-    p.x_ticks = round_ticks(p.window[0] / unit, p.window[1] / unit, std::max(2, static_cast<int>(plot_width / (4.5 * text))));
-    p.y_ticks = round_ticks(p.window[2] / unit, p.window[3] / unit, std::clamp(static_cast<int>(plot_height / (3 * text)), 2, 12));
-    const double bar_height = p.rows * plot_height + (p.rows - 1) * (head + gap);
-    p.bar_ticks = round_ticks(bar.lowest / bar.scale.factor, bar.highest / bar.scale.factor,
-                              std::clamp(static_cast<int>(bar_height / (3 * text)), 2, 10));
-    left = gap + 1.5 * text + gap + widest(ruler, labels_of(p.y_ticks), text) + gap + p.sizes.tick;
-    right = 1.2 * text + bar_width + p.sizes.tick + gap + widest(ruler, labels_of(p.bar_ticks), text) + gap + 1.5 * text + gap;
+    const double overhang = count > 1 ? between / 2 - 0.3 * text : 1.2 * text;
+    p.x = label_axis({p.window[0], p.window[1], "x", "m", largest}, Direction::across, plot_width, overhang, font);
+    p.y = label_axis({p.window[2], p.window[3], "y", "m", largest}, Direction::upwards, plot_height, 0.5 * text, font);
+    const double side_height = p.rows * plot_height + (p.rows - 1) * (head + gap);
+    left = gap + 1.5 * text + gap + p.y.width + gap + p.sizes.tick;
+    if (side.names.empty()) {
+      p.bar = label_axis(side.bar, Direction::upwards, side_height, 0.5 * text, font);
+      right = 1.2 * text + bar_width + p.sizes.tick + gap + p.bar.width + gap + 1.5 * text + gap;
+    } else {
+      list_names(p, side, side_height, std::max(8 * text, 0.3 * options.width), ruler);
+      const double widest_text = std::max(1.6 * text + widest(ruler, p.legend, text), ruler.text_width(side.title, text));
+      right = 1.2 * text + widest_text + gap;
+    }
   }
   p.width = static_cast<int>(std::ceil(left + p.columns * plot_width + (p.columns - 1) * between + right));
   p.height = static_cast<int>(std::ceil(top + p.rows * (head + plot_height) + (p.rows - 1) * gap + bottom));
@@ -82,10 +95,10 @@ PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, c
     const double y = top + head + row * (plot_height + head + gap);
     p.plots.push_back({std::floor(left + column * (plot_width + between)), std::floor(y), plot_width, plot_height});
   }
-  const Box& first = p.plots.front();
-  const Box& last = p.plots.back();
+  const PixelBox& first = p.plots.front();
+  const PixelBox& last = p.plots.back();
   const double plots_right = left + p.columns * plot_width + (p.columns - 1) * between;
-  p.bar = {std::floor(plots_right + 1.2 * text), first.top, std::floor(bar_width), last.bottom() - first.top};
+  p.side = {std::floor(plots_right + 1.2 * text), first.top, std::floor(bar_width), last.bottom() - first.top};
   return p;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-/// Where the plot areas, axes and colour bar of a picture of snapshots go. For the drawing files of this room only.
+/// Where the plot areas, axes, colour bar and legend of a picture of snapshots go. For the drawing files of this room only.
 
 #include <array>
 #include <string>
 #include <vector>
 
+#include "crampon/output/axis.hpp"
 #include "crampon/output/canvas.hpp"
-#include "crampon/output/display_scale.hpp"
 #include "crampon/output/draw.hpp"
 
 namespace crampon {
@@ -16,28 +16,29 @@ struct TextSizes {
   double text = 17, gap = 8, tick = 6;
 };
 
-/// A colour bar's numbers.
-struct BarScale {
-  double lowest = 0, highest = 1;  ///< SI
-  DisplayScale scale;
-  std::string label;
+/// What stands beside the plots: a colour bar, or a legend of categories.
+struct Side {
+  AxisRange bar;
+  std::string title;               ///< of the legend
+  std::vector<std::string> names;  ///< of categories; empty: a bar
 };
 
 struct PictureLayout {
   int width = 0, height = 0;
   int columns = 1, rows = 1;
   TextSizes sizes;
-  std::vector<Box> plots;
+  std::vector<PixelBox> plots;
   std::array<double, 4> window{};  ///< x lowest, x highest, y lowest, y highest, m, of every plot
   double scale = 1;                ///< px per m
-  DisplayScale length;
-  Ticks x_ticks, y_ticks;  ///< in units of `length`
-  Box bar;
-  Ticks bar_ticks;     ///< in units of the bar's scale
-  double title_y = 0;  ///< middle of the title's line; 0: none
+  Axis x, y;
+  PixelBox side;  ///< the colour bar, or the legend under its title
+  Axis bar;
+  std::vector<std::string> legend;  ///< names that have room, shortened; the last may tell how many have none
+  double legend_row = 0;            ///< px from one to the next
+  double title_y = 0;               ///< middle of the title's line; 0: none
 };
 
 /// Fits `count` plots of the window into the width of the options; the window grows where a plot would be too small to read.
-PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, const BarScale& bar, const DrawOptions& options);
+PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, const Side& side, const DrawOptions& options);
 
 }  // namespace crampon

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "crampon/output/axis.hpp"
 #include "crampon/output/canvas.hpp"
 #include "crampon/output/display_scale.hpp"
 
@@ -27,8 +29,7 @@ struct Area {
   std::vector<std::pair<std::size_t, const Curve*>> curves;
   std::string name, unit;
   Range y;
-  DisplayScale scale;
-  Ticks ticks;
+  Axis axis;
 };
 
 void set_dashes(cairo_t* c, std::size_t index, double size) {
@@ -90,7 +91,8 @@ double legend(Canvas& canvas, const std::vector<Area>& areas, double left, doubl
   if (std::all_of(areas.begin(), areas.end(), speaks_for_itself)) return 0;
   for (const Area& area : areas) {
     for (const auto& [index, curve] : area.curves) {
-      const double needed = sample + 0.5 * text + canvas.text_width(curve->label, text);
+      const std::string label = canvas.shortened(curve->label, text, width - sample - 0.5 * text);
+      const double needed = sample + 0.5 * text + canvas.text_width(label, text);
       if (x > left && x + needed > left + width) {
         x = left;
         y += row;
@@ -106,7 +108,7 @@ double legend(Canvas& canvas, const std::vector<Area>& areas, double left, doubl
           set_dashes(canvas.context(), 0, text);
         }
         canvas.set_colour(ink);
-        canvas.text(x + sample + 0.5 * text, y + row / 2, curve->label, text, AlignX::left, AlignY::middle);
+        canvas.text(x + sample + 0.5 * text, y + row / 2, label, text, AlignX::left, AlignY::middle);
       }
       x += needed + 1.6 * text;
     }
@@ -131,25 +133,23 @@ Range fitted(Range r, const std::optional<double>& lowest, const std::optional<d
 // Only the lowest of several areas numbers the shared axis.
 enum class AxisNumbers { shown, hidden };
 
-void paint_area(Canvas& canvas, const Area& area, const PlotMap::Area& map, const Ticks& x_ticks, const DisplayScale& x_scale, double text,
-                AxisNumbers numbers) {
+void paint_area(Canvas& canvas, const Area& area, const PlotMap::Area& map, const Axis& x_axis, double text, AxisNumbers numbers) {
   const double tick = 0.35 * text, bottom = map.top + map.height;
-  for (const double t : x_ticks.at) {
-    const double x = map.pixel(t * x_scale.factor, 0)[0];
+  for (const Axis::Mark& mark : x_axis.marks) {
+    const double x = map.pixel(mark.value, 0)[0];
     canvas.set_colour(grid_colour);
     canvas.line(x, map.top, x, bottom, 1);
     canvas.set_colour(ink);
     canvas.line(x, bottom, x, bottom + tick, 1);
-    if (numbers == AxisNumbers::shown)
-      canvas.text(x, bottom + tick + 0.1 * text, tick_label(t, x_ticks.step), text, AlignX::centre, AlignY::top);
+    if (numbers == AxisNumbers::shown) canvas.text(x, bottom + tick + 0.1 * text, mark.label, text, AlignX::centre, AlignY::top);
   }
-  for (const double t : area.ticks.at) {
-    const double y = map.pixel(0, t * area.scale.factor)[1];
+  for (const Axis::Mark& mark : area.axis.marks) {
+    const double y = map.pixel(0, mark.value)[1];
     canvas.set_colour(grid_colour);
     canvas.line(map.left, y, map.left + map.width, y, 1);
     canvas.set_colour(ink);
     canvas.line(map.left - tick, y, map.left, y, 1);
-    canvas.text(map.left - tick - 0.3 * text, y, tick_label(t, area.ticks.step), text, AlignX::right, AlignY::middle);
+    canvas.text(map.left - tick - 0.3 * text, y, mark.label, text, AlignX::right, AlignY::middle);
   }
   canvas.stroke_box({map.left - 0.5, map.top - 0.5, map.width + 1, map.height + 1}, 1);
   for (const auto& [index, curve] : area.curves) {
@@ -161,9 +161,8 @@ void paint_area(Canvas& canvas, const Area& area, const PlotMap::Area& map, cons
     cairo_restore(canvas.context());
   }
   canvas.set_colour(ink);
-  const std::string label = label_with_unit(area.name, area.scale.unit);
-  const double fitting = std::min(text, text * map.height / std::max(1., canvas.text_width(label, text)));
-  canvas.text_upwards(0.5 * text + 0.75 * text, map.top + map.height / 2, label, fitting);
+  const double fitting = canvas.fitting_size(area.axis.title, text, map.height);
+  canvas.text_upwards(0.5 * text + 0.75 * text, map.top + map.height / 2, area.axis.title, fitting);
 }
 
 PlotMap plot_areas(std::vector<Area> areas, const PlotOptions& options, const std::filesystem::path& path) {
@@ -182,57 +181,72 @@ PlotMap plot_areas(std::vector<Area> areas, const PlotOptions& options, const st
     if (area.y.highest < area.y.lowest) throw std::invalid_argument(fmt::format("there is nothing to plot of {}", area.name));
   }
   x = fitted(x, options.x_lowest, options.x_highest, 0);
-  const DisplayScale x_scale = display_scale(std::max(std::abs(x.lowest), std::abs(x.highest)), options.x_unit);
 
-  Canvas canvas(options.width, options.height);
   const double text = std::clamp(options.width / 65., 11., 40.), tick = 0.35 * text;
   const double title_height = options.title.empty() ? 0 : 2.2 * text;
   const double bottom = tick + 3.4 * text, right = 1.6 * text, between = 0.9 * text;
+  const auto count = static_cast<double>(areas.size());
   double left = 6 * text, legend_height = 0, height = 0;
+  int low = options.height;  // of the picture, which grows where its areas would be too low for numbers
+  Canvas ruler(1, 1);
+  const LabelFont font = label_font(ruler, text);
   for (int round = 0; round < 3; ++round) {
-    legend_height = legend(canvas, areas, left, 0, options.width - left - right, text, Pass::measure);
-    const double top = 0.8 * text + title_height + legend_height;
-    const auto count = static_cast<double>(areas.size());
-    height = std::floor((options.height - top - bottom - (count - 1) * between) / count);
-    if (height < 3 * text) throw std::invalid_argument("the plot is too low for its areas and legend");
+    legend_height = legend(ruler, areas, left, 0, options.width - left - right, text, Pass::measure);
+    const double other = 0.8 * text + title_height + legend_height + bottom + (count - 1) * between, least = 5 * text;
+    low = std::max(options.height, static_cast<int>(std::ceil(other + count * least)));
+    height = std::floor((low - other) / count);
     double widest_label = 0;
     for (Area& area : areas) {
       const Range y = fitted(area.y, options.y_lowest, options.y_highest, 0.06);
-      area.scale = display_scale(std::max(std::abs(y.lowest), std::abs(y.highest)), area.unit);
-      const int most = std::max(2, static_cast<int>(height / (2.6 * text)));
-      area.ticks = round_ticks(y.lowest / area.scale.factor, y.highest / area.scale.factor, most);
-      for (const double t : area.ticks.at) widest_label = std::max(widest_label, canvas.text_width(tick_label(t, area.ticks.step), text));
+      area.axis = label_axis({y.lowest, y.highest, area.name, area.unit, {}}, Direction::upwards, height, 0.5 * text, font);
+      widest_label = std::max(widest_label, area.axis.width);
     }
     left = std::floor(2.5 * text + widest_label + 0.3 * text + tick);
   }
-  const double width = std::floor(options.width - left - right);
+  const double width = std::max(8 * text, std::floor(options.width - left - right));
   const double top = std::floor(0.8 * text + title_height + legend_height);
-  const int most_x = std::max(2, static_cast<int>(width / (4.5 * text)));
-  const Ticks x_ticks = round_ticks(x.lowest / x_scale.factor, x.highest / x_scale.factor, most_x);
+  const int wide = std::max(options.width, static_cast<int>(std::ceil(left + width + right)));
+  const Axis x_axis = label_axis({x.lowest, x.highest, options.x_name, options.x_unit, {}}, Direction::across, width, right, font);
 
-  PlotMap map{options.width, options.height, {}};
+  Canvas canvas(wide, low);
+  PlotMap map{wide, low, {}, {}};
   for (std::size_t i = 0; i < areas.size(); ++i) {
     const Range y = fitted(areas[i].y, options.y_lowest, options.y_highest, 0.06);
     map.areas.push_back(
         {left, std::floor(top + static_cast<double>(i) * (height + between)), width, height, x.lowest, x.highest, y.lowest, y.highest});
-    paint_area(canvas, areas[i], map.areas.back(), x_ticks, x_scale, text,
-               i + 1 == areas.size() ? AxisNumbers::shown : AxisNumbers::hidden);
+    paint_area(canvas, areas[i], map.areas.back(), x_axis, text, i + 1 == areas.size() ? AxisNumbers::shown : AxisNumbers::hidden);
   }
   const PlotMap::Area& last = map.areas.back();
-  canvas.text(left + width / 2, last.top + last.height + tick + 1.6 * text, label_with_unit(options.x_name, x_scale.unit), text,
+  canvas.text(left + width / 2, last.top + last.height + tick + 1.6 * text, x_axis.title, canvas.fitting_size(x_axis.title, text, width),
               AlignX::centre, AlignY::top);
   if (!options.title.empty()) {
-    const double fitting = std::min(1.2 * text, 1.2 * text * (options.width - text) / canvas.text_width(options.title, 1.2 * text));
-    canvas.text(options.width / 2., 0.5 * text + title_height / 2, options.title, fitting, AlignX::centre, AlignY::middle);
+    const double fitting = std::max(canvas.fitting_size(options.title, 1.2 * text, wide - text), 0.7 * text);
+    canvas.text(wide / 2., 0.5 * text + title_height / 2, canvas.shortened(options.title, fitting, wide - text), fitting, AlignX::centre,
+                AlignY::middle);
   }
   legend(canvas, areas, left, 0.4 * text + title_height, width, text, Pass::paint);
+  map.texts = canvas.texts();
   canvas.save(path);
   return map;
 }
 
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+// What curves of one unit have in common: the last words of their names, else what is measured in that unit, else all names.
+std::string common_name(const std::vector<std::string>& names, const std::string& unit) {
+  const auto last_words = [&](std::size_t length) { return names[0].substr(names[0].size() - length); };
+  std::string common;
+  for (std::size_t from = names[0].find(' '); from != std::string::npos && common.empty(); from = names[0].find(' ', from + 1)) {
+    const std::string end = last_words(names[0].size() - from);
+    if (std::all_of(names.begin(), names.end(), [&](const std::string& n) { return n.ends_with(end) || n == end.substr(1); }))
+      common = end.substr(1);
+  }
+  if (!common.empty()) return common;
+  static const std::map<std::string, std::string> of_unit{
+      {"J", "energy"}, {"N", "force"},      {"Pa", "stress"},           {"m", "length"},
+      {"s", "time"},   {"m/s", "velocity"}, {"kg m/s", "momentum"},     {"N m", "moment"},
+      {"kg", "mass"},  {"W", "power"},      {"J/m2", "energy per area"}};
+  if (const auto found = of_unit.find(unit); found != of_unit.end()) return found->second;
+  for (const std::string& name : names) common += (common.empty() ? "" : ", ") + name;
+  return common;
 }
 
 }  // namespace
@@ -249,7 +263,7 @@ PlotMap plot_history(const std::vector<HistoryCurve>& curves, const PlotOptions&
   std::vector<Curve> drawn;
   std::vector<std::string> names, units;
   for (const HistoryCurve& c : curves) {
-    const std::string name = spaced(c.column);
+    const std::string name = spelt_out(c.column);
     const std::string along = c.over.empty() ? c.history->columns.at(0).name : c.over;
     drawn.push_back({c.label.empty() ? name : c.label, c.history->column(along), c.history->column(c.column), CurveStyle::line});
     names.push_back(name);
@@ -263,13 +277,18 @@ PlotMap plot_history(const std::vector<HistoryCurve>& curves, const PlotOptions&
       area->unit = units[i];
       area->name = names[i];
     }
-    if (area->name != names[i]) area->name.clear();  // the legend names them
     area->curves.emplace_back(i, &drawn[i]);
+  }
+  for (Area& area : areas) {
+    std::vector<std::string> different;
+    for (const auto& [index, curve] : area.curves)
+      if (std::find(different.begin(), different.end(), names[index]) == different.end()) different.push_back(names[index]);
+    if (different.size() > 1) area.name = common_name(different, area.unit);
   }
   if (areas.empty()) throw std::invalid_argument("there is nothing to plot: no column");
   PlotOptions filled = options;
   const std::string& along = curves[0].over;
-  if (filled.x_name.empty()) filled.x_name = along.empty() ? "time" : spaced(along);
+  if (filled.x_name.empty()) filled.x_name = along.empty() ? "time" : spelt_out(along);
   if (filled.x_unit.empty()) filled.x_unit = along.empty() ? "s" : curves[0].history->unit(along);
   if (areas.size() == 1 && !options.y_name.empty()) areas[0].name = options.y_name;
   return plot_areas(std::move(areas), filled, path);

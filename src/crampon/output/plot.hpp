@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "crampon/output/history.hpp"
+#include "crampon/output/picture_box.hpp"
 
 namespace crampon {
 
@@ -24,7 +25,7 @@ struct PlotOptions {
   std::string title{};
   std::string x_name{}, x_unit{}, y_name{}, y_unit{};                      ///< plot_history fills those left empty
   std::optional<double> x_lowest{}, x_highest{}, y_lowest{}, y_highest{};  ///< SI; default: all points
-  int width = 1200, height = 720;                                          ///< px
+  int width = 1200, height = 720;                                          ///< px; more where that has no room for numbers
 };
 
 /// Where the areas of a plot lie, px.
@@ -38,6 +39,7 @@ struct PlotMap {
   };
   int width = 0, height = 0;
   std::vector<Area> areas;  ///< from top to bottom
+  std::vector<DrawnText> texts;
 };
 
 /// All curves in one area, with a legend above it when there are several. Throws std::invalid_argument (no point to draw, x and y of

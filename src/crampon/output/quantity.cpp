@@ -87,6 +87,13 @@ Quantity evaluate_quantity(const PointFrame& frame, const std::string& name, dou
   throw std::invalid_argument(fmt::format("no quantity \"{}\"; {}", name, suggest_from(name, quantity_names(frame))));
 }
 
+bool is_category(const PointFrame& frame, const std::string& name) {
+  const Field* field = find_field(frame, name);
+  if (!field || field->components != 1 || name == "id") return false;
+  const NumberType type = field->values.type();
+  return name == "body" || name == "material" || type == NumberType::int32 || type == NumberType::int64;
+}
+
 std::vector<std::string> quantity_names(const PointFrame& frame) {
   std::vector<std::string> names;
   for (const Field& field : frame.fields) {

@@ -24,6 +24,9 @@ inline constexpr double paper_fringe_constant = 0.0889;
 /// Throws std::invalid_argument with the most similar name.
 Quantity evaluate_quantity(const PointFrame& frame, const std::string& name, double fringe_constant = paper_fringe_constant);
 
+/// Are its numbers names of things, as those of bodies and materials are?
+bool is_category(const PointFrame& frame, const std::string& name);
+
 /// All names evaluate_quantity understands for this frame.
 std::vector<std::string> quantity_names(const PointFrame& frame);
 

@@ -140,7 +140,8 @@ Field read_array(const Tag& tag, std::string_view appended) {
   if (tag.attribute("format") == "ascii") {
     array.values = Numbers(type);
     const char* p = tag.text.c_str();
-    for (std::size_t i = 0; i < tag.count("NumberOfTuples"); ++i) {
+    const std::size_t count = tag.count("NumberOfTuples") * static_cast<std::size_t>(array.components);
+    for (std::size_t i = 0; i < count; ++i) {
       char* end = nullptr;
       array.values.push_back(std::strtod(p, &end));
       if (end == p) damaged("array " + array.name + " is too short");

@@ -134,7 +134,7 @@ class Document {
     a.values = Numbers();
   }
   void text_array(const Field& a) {
-    line(fmt::format("{} NumberOfTuples=\"{}\" format=\"ascii\">", open_tag(a), a.values.size()));
+    line(fmt::format("{} NumberOfTuples=\"{}\" format=\"ascii\">", open_tag(a), a.values.size() / static_cast<std::size_t>(a.components)));
     for (const double v : a.values) {
       if (a.values.type() == NumberType::int64)
         line(fmt::format("{}", static_cast<std::int64_t>(v)));

@@ -18,6 +18,7 @@ constexpr const char* size_name = "particle_size";
 constexpr const char* original_name = "original_position";
 constexpr const char* names_name = "crack_names";
 constexpr const char* bodies_name = "body_names";
+constexpr const char *start_name = "rigid_start", *centre_name = "rigid_centre", *turn_name = "rigid_turn";
 
 // Labels must survive single precision, which holds whole numbers only up to 2^24.
 bool is_label(const Field& field) {
@@ -42,6 +43,27 @@ Field typed(Field&& field, Precision precision) {
 Field real_scalar(const char* name, const char* unit, double value) { return {name, unit, 1, {value}}; }
 Field whole_scalar(const char* name, double value) { return {name, "", 1, Numbers{value}.as(NumberType::int64)}; }
 
+// Where rigid bodies and walls are, a row of each array for each.
+template <std::size_t Count, class Member>
+Field rigid_array(const char* name, const char* unit, const std::vector<RigidPlace>& places, Member member) {
+  Field field{name, unit, static_cast<int>(Count), {}};
+  for (const RigidPlace& place : places)
+    for (const double v : place.*member) field.values.push_back(v);
+  return field;
+}
+
+template <class Member>
+void read_rigid(const PolyData& data, std::string_view name, std::vector<RigidPlace>& places, Member member) {
+  for (const Field& a : data.field_data) {
+    if (a.name != name) continue;
+    const std::size_t length = (RigidPlace{}.*member).size();
+    if (a.values.size() % length != 0 || (!places.empty() && places.size() != a.values.size() / length))
+      throw std::runtime_error("damaged file: places of rigid bodies do not fit together");
+    places.resize(a.values.size() / length);
+    for (std::size_t r = 0; r < places.size(); ++r) a.values.copy(r * length, length, (places[r].*member).data());
+  }
+}
+
 double scalar(const PolyData& data, std::string_view name) {
   for (const Field& a : data.field_data)
     if (a.name == name && !a.values.empty()) return a.values[0];
@@ -63,6 +85,9 @@ PointFrame point_frame(PolyData&& data) {
   frame.step = static_cast<std::int64_t>(scalar(data, "step"));
   frame.dimension = static_cast<int>(scalar(data, "dimension"));
   frame.cell = scalar(data, "cell");
+  read_rigid(data, start_name, frame.rigid, &RigidPlace::start);
+  read_rigid(data, centre_name, frame.rigid, &RigidPlace::centre);
+  read_rigid(data, turn_name, frame.rigid, &RigidPlace::turn);
   frame.positions = std::move(data.points.values);
   if (data.string_name == bodies_name) frame.body_names = std::move(data.strings);
   for (Field& a : data.point_data) {
@@ -110,6 +135,11 @@ void write_vtp(const std::filesystem::path& path, PointFrame frame, Precision pr
   PolyData data;
   data.field_data = {real_scalar("TimeValue", "s", frame.time), whole_scalar("step", static_cast<double>(frame.step)),
                      whole_scalar("dimension", frame.dimension), real_scalar("cell", "m", frame.cell)};
+  if (!frame.rigid.empty()) {
+    data.field_data.push_back(rigid_array<3>(start_name, "m", frame.rigid, &RigidPlace::start));
+    data.field_data.push_back(rigid_array<3>(centre_name, "m", frame.rigid, &RigidPlace::centre));
+    data.field_data.push_back(rigid_array<9>(turn_name, "", frame.rigid, &RigidPlace::turn));
+  }
   if (!frame.body_names.empty()) {
     data.string_name = bodies_name;
     data.strings = std::move(frame.body_names);

@@ -7,7 +7,8 @@
 
 namespace crampon {
 
-/// Points as vertex cells with every field as point data; time, step, dimension and cell size as field data. Fields "id", "body",
+/// Points as vertex cells with every field as point data; time, step, dimension, cell size, names of bodies
+/// and places of rigid bodies as field data. Fields "id", "body",
 /// "material", "node", "velocity_field" and "crack" that hold whole numbers are stored as Int64 in both precisions.
 /// Throws std::runtime_error (path and reason; no file is left) and std::invalid_argument for a field of a wrong length.
 void write_vtp(const std::filesystem::path& path, PointFrame frame, Precision precision = Precision::single);

@@ -75,7 +75,10 @@ std::string output_reference_page() {
       "## Particle quantities\n\n"
       "`[output] quantities` chooses those that are written; the marked ones are when it is left out. Particles also carry `id` (from 0, "
       "in the "
-      "order of bodies) and `body` (from 0, bodies before rigid bodies; their names are `body_names` in the field data of the file).\n\n"
+      "order of bodies) and `body` (from 0, bodies before rigid bodies; their names are `body_names` in the field data of the file). "
+      "Rigid bodies, then walls, have a row each in `rigid_start`, `rigid_centre` (m) and `rigid_turn` (3 x 3, by rows) there: what began "
+      "at X "
+      "is at `rigid_centre + rigid_turn (X - rigid_start)`.\n\n"
       "| quantity | unit | components | by default | meaning | formula |\n| --- | --- | --- | --- | --- | --- |\n";
   for (const QuantityDescription& q : describe_particle_quantities())
     out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(q.name), q.unit, components_text(q.components), q.common ? "yes" : "",
@@ -98,7 +101,18 @@ std::string output_reference_page() {
       "row for each vertex whose traction law failed: time, crack, place, and the energies `G_I` and `G_II` (J/m2) that it took.\n\n"
       "## Nodes\n\n"
       "With `[output] grid = true`, `grid.pvd` holds each node once for every velocity field with mass there: `cracks_across` (how many "
-      "cracks lie between its particles and the node), `mass` (kg), `momentum` (kg m/s) and `force` (N) of the last step.\n";
+      "cracks lie between its particles and the node), `mass` (kg), `momentum` (kg m/s) and `force` (N) of the last step.\n\n"
+      "## Pictures\n\n"
+      "`crampon draw` colours particles by a quantity. Values of both signs, and every diverging palette, are coloured about zero, which "
+      "is "
+      "pale. "
+      "`body` and `material` have a legend with names instead of a range, and no place on the axis of a `--profile`. Each body has an "
+      "outline, also where it touches another. Rigid bodies and walls are drawn hatched, by their shapes at the time of the frame; they "
+      "take "
+      "no part in the colour range, nor in a `--profile`. In space pictures look along z; walls are shown by their section half way up the "
+      "particles. Several pictures of one call (`--all`, `--frame`, `--time`) share one window and one range. Where numbers along an axis "
+      "would differ in their last digits only, they show the difference from a round one that the axis names, as in "
+      "`time \u2212 1.2 s (\u00b5s)`.\n";
   return out;
 }
 

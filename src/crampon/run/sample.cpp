@@ -128,6 +128,17 @@ void fill_sample(const State<Dim>& state, std::size_t p, const PackReport& repor
   s.material = static_cast<int>(material);
 }
 
+template <int Dim>
+RigidPlace rigid_place(const RigidBody<Dim>& body, const RigidPose<Dim>& pose) {
+  RigidPlace place;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    place.start[k] = body.centre[k];
+    place.centre[k] = pose.centre[k];
+    for (std::size_t l = 0; l < Dim; ++l) place.turn[3 * k + l] = pose.turn[k][l];
+  }
+  return place;
+}
+
 class Hash {
  public:
   template <class T>
@@ -182,6 +193,8 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
   frame.step = state.step;
   frame.dimension = Dim;
   frame.body_names = model.bodies;
+  for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b)
+    frame.rigid.push_back(rigid_place(model.rigid_bodies[b], state.rigid[b].start));
   for (int k = 0; k < Dim; ++k) frame.cell = std::fmax(frame.cell, model.grid.cell[k]);
   frame.positions = numbers(3);
   const auto size_of = [&](const Material<Dim>& m) {
