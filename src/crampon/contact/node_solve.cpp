@@ -34,6 +34,19 @@ bool glue_holds(const ContactRules& rules, const ContactPair<Dim>& pair, double 
   return adhesion_holds(*pair.law, m * w_n, norm(D_t), pair.area, rules.dt);
 }
 
+/// A term of a series for velocities: what Task 4 found to touch does not part by it, what stuck does not slip, and the springs of an interface
+/// keep the stretch that they have found.
+template <int Dim>
+Response<Dim> term_response(const ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
+  if (holds_as_interface(pair)) return bonded_response(pair, m, w);
+  Response<Dim> out;
+  if (pair.state == ContactState::open) return out;
+  const double w_n = dot(w, pair.n);
+  out.push(pair.n, m, w_n, 0);
+  if (pair.state == ContactState::stick) out.stick((w - pair.n * w_n) * m);
+  return out;
+}
+
 /// The papers' rule, anew in each task (N03 section 2.2, N13 section 3).
 template <int Dim>
 Response<Dim> literal_response(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
@@ -109,6 +122,8 @@ Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& p
       if (pair.state == ContactState::stick) out.stick(D_t);
       break;
     }
+    case ContactTask::term:  // not by detection
+      break;
   }
   return out;
 }
@@ -116,6 +131,7 @@ Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& p
 template <int Dim>
 Response<Dim> respond(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
   if (std::holds_alternative<BondedContact>(*pair.law)) return bonded_response(pair, m, w);
+  if (rules.task == ContactTask::term) return term_response(pair, m, w);
   if (holds_as_interface(pair)) return interface_response(rules, pair, m, w);
   return rules.literal ? literal_response(rules, pair, m, w) : consistent_response(rules, pair, m, w);
 }

@@ -116,7 +116,8 @@ struct ContactNodes {
   }
 };
 
-enum class ContactTask { two, four, six };
+/// Tasks of the step; or a term of a series for velocities after Task 4 (step/filter_velocities.hpp), which only keeps the state of Task 4.
+enum class ContactTask { two, four, six, term };
 
 /// How pairs are handled, the same for all nodes of a run.
 struct ContactRules {

@@ -29,7 +29,11 @@ class ProblemChecker {
     if (broken("analysis")) return;
     if (!broken("grid")) check_grid();
     if (!broken("method")) check_length(problem_.method, "body_force", problem_.method.body_force.size());
-    if (!broken("method") && !broken("time")) check_damping();
+    if (!broken("method") && !broken("time")) {
+      check_damping("damping", problem_.method.damping);
+      check_damping("particle_damping", problem_.method.particle_damping);
+    }
+    if (!broken("method")) check_transfer();
     for (const BodyInput& body : problem_.bodies) check_body(body);
     for (const RigidInput& rigid : problem_.rigids) check_rigid(rigid);
     for (const WallInput& wall : problem_.walls) check_wall(wall);
@@ -122,16 +126,24 @@ class ProblemChecker {
         suggest_from(name, names));
   }
 
+  /// Particles that a series moves must be strained by the same velocities (docs/theory/step.md, positions and transfers).
+  void check_transfer() {
+    const MethodInput& method = problem_.method;
+    if (std::holds_alternative<FlipTransfer>(method.transfer)) return;
+    if (method.positions == PositionUpdate::n03)
+      add(method, "positions", "positions by N03 Eq. 30 with a series for velocities",
+          "Eq. 30 moves particles with a velocity that does not strain them", "leave positions out, or use transfer = \"flip\"");
+  }
+
   // At a thousand times, when it varies; what falls between them stops the run (step/guard.cpp).
-  void check_damping() {
-    const ValueFunction& damping = problem_.method.damping;
+  void check_damping(const char* key, const ValueFunction& damping) {
     const double end = problem_.time.end.value_or(1);
     constexpr int samples = 1000;
     for (int k = 0; k <= (damping.depends_on_time() ? samples : 0); ++k) {
       const double t = end * k / samples, value = damping(t, {});
       if (!(value < 0)) continue;
       const std::string when = damping.depends_on_time() ? fmt::format(" at t = {:.4g} s", t) : "";
-      add(problem_.method, "damping", fmt::format("the damping is {:.4g} 1/s{}", value, when),
+      add(problem_.method, key, fmt::format("the damping is {:.4g} 1/s{}", value, when),
           "below zero it drives the motion that it is to take from", "make it zero or more");
       return;
     }

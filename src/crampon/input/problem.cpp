@@ -25,6 +25,17 @@ const Declaration<GridInput>& grid_declaration() {
   return d;
 }
 
+const Declaration<RestInput>& rest_declaration() {
+  static const auto d =
+      Declaration<RestInput>("stop_at_rest", "When a run that looks for a state of rest may end.")
+          .quantity("ratio", &RestInput::ratio, "1", Bounds::from_above(0, 1),
+                    "kinetic over strain energy, which is looked at twenty times in a period")
+          .quantity("period", &RestInput::period, "s", Bounds::positive(),
+                    "time for which the ratio must stay below; longer than the slowest vibration, which passes through small ratios",
+                    required);
+  return d;
+}
+
 const Declaration<TimeInput>& time_declaration() {
   static const auto d =
       Declaration<TimeInput>("time", "How far to compute, and in what steps. Give exactly one of end and steps.")
@@ -35,6 +46,7 @@ const Declaration<TimeInput>& time_declaration() {
           .quantity("courant", &TimeInput::courant, "1", Bounds::from_above(0, 1),
                     "time step over the time a wave needs to cross a cell, the smallest over materials and axes")
           .excludes({"step"})
+          .record("stop_at_rest", &TimeInput::stop_at_rest, rest_declaration, "end before that as soon as all has come to rest")
           .check([](const TimeInput& in, Diagnostics& diagnostics) {
             if (!in.end && !in.steps)
               diagnostics.add("", "neither end nor steps is given", "the run would have no end", "add end or steps");
@@ -59,6 +71,9 @@ const Declaration<MethodInput>& method_declaration() {
                   {{"linear", CrackShapeFunctions::linear}, {"same", CrackShapeFunctions::same}},
                   "by what crack points are moved: linear functions, or B-splines where particles have them")
           .function("damping", &MethodInput::damping, "1/s", "grid damping kappa (N03 Eq. 4); may vary in time")
+          .function("particle_damping", &MethodInput::particle_damping, "1/s",
+                    "damping of the particles' own velocities, which also reaches what nodes do not see; may vary in time")
+          .one_of("transfer", &MethodInput::transfer, transfers, "how particles take up what nodes have found; left out: FLIP")
           .function("body_force", &MethodInput::body_force, "m/s2", "acceleration, one per dimension; may vary in time", Presence::optional,
                     two_or_three)
           .choice("boundary_order", &MethodInput::boundary_order,
@@ -73,6 +88,8 @@ const Declaration<MethodInput>& method_declaration() {
           .check([](const MethodInput& in, Diagnostics& diagnostics) {
             if (in.damping.depends_on_position())
               diagnostics.add("damping", "damping depends on the position", "it is the same everywhere", "use t alone");
+            if (in.particle_damping.depends_on_position())
+              diagnostics.add("particle_damping", "damping depends on the position", "it is the same everywhere", "use t alone");
             for (std::size_t k = 0; k < in.body_force.size(); ++k)
               if (in.body_force[k].depends_on_position())
                 diagnostics.add(fmt::format("body_force[{}]", k), "the body force depends on the position", "it is the same everywhere",

@@ -19,6 +19,7 @@
 #include "crampon/crack/traction/law.hpp"
 #include "crampon/geometry/shape.hpp"
 #include "crampon/material/material.hpp"
+#include "crampon/step/transfer.hpp"
 
 namespace crampon {
 
@@ -31,12 +32,19 @@ struct GridInput : Located {
   std::vector<double> cell;    ///< cell size, m; one value for all axes or one per axis
 };
 
+/// [time] stop_at_rest: when all has come to rest.
+struct RestInput : Located {
+  double ratio = 1e-6;  ///< kinetic over strain energy
+  double period = 0;    ///< for which it must stay below, s
+};
+
 /// [time]: how far, and in what steps. Exactly one of end and steps.
 struct TimeInput : Located {
   std::optional<double> end;          ///< s
   std::optional<std::int64_t> steps;  ///< number of steps
   std::optional<double> step;         ///< fixed time step, s; else from the Courant factor
   double courant = 0.4;               ///< time step = courant * cell / wave speed (smallest over materials and axes)
+  std::optional<RestInput> stop_at_rest;
 };
 
 /// [method]: the choices of the algorithm.
@@ -45,7 +53,9 @@ struct MethodInput : Located {
   PositionUpdate positions = PositionUpdate::strain;
   ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
   CrackShapeFunctions crack_shape_functions = CrackShapeFunctions::linear;
-  ValueFunction damping;                  ///< grid damping kappa of N03 Eq. 4, 1/s, may vary in time
+  ValueFunction damping;           ///< grid damping kappa of N03 Eq. 4, 1/s, may vary in time
+  ValueFunction particle_damping;  ///< the same of particles, 1/s, may vary in time
+  TransferSpec transfer;
   std::vector<ValueFunction> body_force;  ///< acceleration b, m/s2, one per dimension or empty; uniform in space
   using BoundaryOrder = crampon::BoundaryOrder;
   using FixedForce = crampon::FixedForce;

@@ -266,6 +266,8 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   model.leaving_particle = problem.method.leaving_particle;
   model.body_force = problem.method.body_force;
   model.damping = problem.method.damping;
+  model.particle_damping = problem.method.particle_damping;
+  model.transfer = problem.method.transfer;
   model.damped = model.damping.depends_on_time() || model.damping(0, {}) != 0;
   const ContactInput& contact = problem.contact;
   model.contact = {contact.scheme,           contact.detection,        contact.pairs,

@@ -17,6 +17,7 @@ const std::vector<ColumnDescription>& describe_history_columns() {
       {"boundary_work", "J", "work of boundaries, rigid bodies and walls on the material since the start",
        "sum over steps of reaction times way"},
       {"damping_loss", "J", "taken by damping since the start", ""},
+      {"transfer_loss", "J", "taken by what particles take over from nodes (method.transfer) since the start", ""},
       {"contact_loss", "J", "lost as contact begins, and what the tasks of a step do not agree on, since the start", ""},
       {"friction_loss", "J", "lost to friction since the start", "sum over steps of tangential impulse times mean slip speed"},
       {"interface_energy", "J", "in the springs of interfaces now", ""},

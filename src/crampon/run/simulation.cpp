@@ -65,12 +65,13 @@ class Engine final : public Simulation {
     }
     advance<Dim, Shape>(state_, model_, dt);
     if (hits) state_.time = std::fmin(longest, end_time_or_infinity());  // to the bit
+    look_for_rest();
   }
 
   double time() const override { return state_.time; }
   std::int64_t steps_done() const override { return state_.step; }
   bool finished() const override {
-    return (time_.steps && state_.step >= *time_.steps) || (time_.end && state_.time >= *time_.end * (1 - 1e-14));
+    return rests() || (time_.steps && state_.step >= *time_.steps) || (time_.end && state_.time >= *time_.end * (1 - 1e-14));
   }
   double end_time() const override { return time_.end ? end_ : static_cast<double>(*time_.steps) * time_step_; }
 
@@ -127,6 +128,7 @@ class Engine final : public Simulation {
                                     {"body_force_work", "J"},
                                     {"boundary_work", "J"},
                                     {"damping_loss", "J"},
+                                    {"transfer_loss", "J"},
                                     {"contact_loss", "J"},
                                     {"friction_loss", "J"},
                                     {"interface_energy", "J"},
@@ -170,8 +172,8 @@ class Engine final : public Simulation {
     const double total = sums.kinetic + sums.strain;
     const CohesiveTotals& cohesive = state_.cohesive;
     const double load_work = e.load_work + cohesive.work_of_pressure;
-    const double held = e.interfaces + cohesive.stored,
-                 lost = e.damping + e.contact_loss + e.friction_loss + cohesive.dissipated_normal + cohesive.dissipated_shear;
+    const double held = e.interfaces + cohesive.stored, lost = e.damping + e.transfer_loss + e.contact_loss + e.friction_loss +
+                                                               cohesive.dissipated_normal + cohesive.dissipated_shear;
     const double left_energy = state_.left.kinetic + state_.left.strain;
     const double closure = total + held + lost + left_energy - load_work - e.body_work - e.boundary_work - initial_energy_;
     std::vector<double> row = {state_.time,
@@ -182,6 +184,7 @@ class Engine final : public Simulation {
                                e.body_work,
                                e.boundary_work,
                                e.damping,
+                               e.transfer_loss,
                                e.contact_loss,
                                e.friction_loss,
                                e.interfaces,
@@ -245,6 +248,10 @@ class Engine final : public Simulation {
   std::vector<std::string> notes_at_start() const override { return notes_at_start_; }
   std::vector<std::string> notes() const override {
     std::vector<std::string> out;
+    if (rests())
+      out.push_back(fmt::format(
+          "the run ended at t = {:.6g} s, at rest: kinetic energy stayed under {:g} of the strain energy for {:g} s (time.stop_at_rest)",
+          state_.time, time_.stop_at_rest->ratio, time_.stop_at_rest->period));
     if (state_.most_crowded_nodes > 0)
       out.push_back(fmt::format("up to {} nodes saw more than two cracks at once", state_.most_crowded_nodes));
     if (state_.most_unsolved_nodes > 0) {
@@ -264,6 +271,19 @@ class Engine final : public Simulation {
   }
 
  private:
+  /// Is all at rest, and has been for the period asked for?
+  bool rests() const { return time_.stop_at_rest && state_.time - rests_since_ >= time_.stop_at_rest->period * (1 - 1e-12); }
+  /// Energies are sums over all particles: they are looked at twenty times in a period.
+  void look_for_rest() {
+    if (!time_.stop_at_rest || state_.time < next_look_) return;
+    next_look_ = state_.time + time_.stop_at_rest->period / 20;
+    const auto sums = sum_particles(state_, model_);
+    if (!(sums.kinetic <= time_.stop_at_rest->ratio * sums.strain)) {
+      rests_since_ = std::numeric_limits<double>::infinity();
+    } else if (rests_since_ > state_.time) {
+      rests_since_ = state_.time;
+    }
+  }
   struct Probe {
     std::string name, quantity;
     std::uint32_t particle = 0;
@@ -417,6 +437,8 @@ class Engine final : public Simulation {
   static constexpr double shortest_for_tractions = 1e-3;
   std::vector<std::vector<bool>> cracked_;  ///< BuiltModel::cracked
   std::vector<std::string> notes_at_start_;
+  double next_look_ = 0;                                          ///< for rest, s
+  double rests_since_ = std::numeric_limits<double>::infinity();  ///< at every look, s
   bool watches_wave_speed_ = false;
   std::vector<Probe> probes_;
 };

@@ -49,6 +49,8 @@ double energy_taken(ContactGroup<Dim>& group, ContactTask task, const Vec<Dim>& 
     }
     case ContactTask::six:
       return -0.5 * (dot(group.dp4, before) - dot(group.gain, group.dp));
+    case ContactTask::term:
+      return 0;
   }
   return 0;
 }
@@ -168,6 +170,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
   Nodes<Dim>& nodes = state.nodes;
   BlockLedger<Dim>& ledger = state.scratch[b].ledger;
   ContactRules rules = rules_of(model.contact, task, dt);
+  const bool re_extrapolates = model.transfer_in(state.step).re_extrapolates;
   rules.hold = 0.25 * model.grid.smallest_cell();  // well above what gaps err by (docs/theory/contact.md, detection)
   std::vector<Vec<Dim>> before;
   for (ContactNode<Dim>& node : contacts.nodes) {
@@ -183,10 +186,11 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
     for (int g = 0; g < group_count; ++g) {
       if (!groups[g].wall) continue;
       const RigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(groups[g].body)];
-      groups[g].p = (task == ContactTask::two ? motion.start : motion.end).velocity_at(x_i) * groups[g].m;
+      if (task != ContactTask::term) groups[g].p = (task == ContactTask::two ? motion.start : motion.end).velocity_at(x_i) * groups[g].m;
     }
     // Prescribed components stay in Task 4 (N13 sec. 2.5), and in the other tasks where nothing imposes them again after contact.
-    const bool imposed_before = task == ContactTask::four || model.boundary_order == BoundaryOrder::boundary_first;
+    const bool imposed_before =
+        task == ContactTask::four || task == ContactTask::term || model.boundary_order == BoundaryOrder::boundary_first;
     rules.fixed_axes = imposed_before ? fixed_axes(state, b, node.node) : 0u;
     if (pair_count > 0) {
       before.clear();
@@ -199,7 +203,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
       if (!solve_contact<Dim>(rules, groups, group_count, pairs, pair_count)) ++ledger.unsolved_nodes;
       double taken = 0;
       for (int g = 0; g < group_count; ++g) {
-        const double by_group = energy_taken(groups[g], task, before[static_cast<std::size_t>(g)], model.re_extrapolates());
+        const double by_group = energy_taken(groups[g], task, before[static_cast<std::size_t>(g)], re_extrapolates);
         taken += by_group;
         if (groups[g].rigid)
           book_rigid(groups[g], state.rigid[static_cast<std::size_t>(groups[g].body)].start, x_i, by_group, task, dt, ledger);
@@ -209,7 +213,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
       for (int q = 0; q < pair_count && task == ContactTask::four; ++q) {
         pairs[q].rubbing = rubbing(pairs[q]);
         // Without Task 6 the velocity of the particles at the end is not known: that at the start stands for both.
-        if (!model.re_extrapolates()) rubbed += friction_work(pairs[q], pairs[q].w_start);
+        if (!re_extrapolates) rubbed += friction_work(pairs[q], pairs[q].w_start);
         close_pair(groups, pairs[q], dt, ledger);
         if (remembers) put_gain(state, b, node, pairs[q]);
       }

@@ -8,6 +8,7 @@
 #include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/face_loads.hpp"
+#include "crampon/step/filter_velocities.hpp"
 #include "crampon/step/find_contacts.hpp"
 #include "crampon/step/guard.hpp"
 #include "crampon/step/instantiate.hpp"
@@ -20,6 +21,7 @@
 #include "crampon/step/project_loads.hpp"
 #include "crampon/step/reorder.hpp"
 #include "crampon/step/rigid_motion.hpp"
+#include "crampon/step/take_velocities.hpp"
 #include "crampon/step/update_particles.hpp"
 
 namespace crampon {
@@ -70,9 +72,10 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
   const double lead = position_lead(model, dt), further = lead - state.particles.lead;
   // N03 Eq. 35: half at a time for USAVG. The others strain in time with positions: USF to where they are, USL and MUSL along with them.
   const double stress_dt = scheme == StressUpdate::usavg ? 0.5 * dt : scheme == StressUpdate::usf ? dt - further : dt + further;
+  const StepTransfer transfer = model.transfer_in(state.step);
   std::vector<Vec<Dim>> load_values;
   Vec<Dim> body_force;
-  double damping = 0;
+  double damping = 0, particle_damping = 0;
 
   Phases<Dim> phases(state, model.threads);
   using B = std::size_t;
@@ -83,7 +86,8 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     lead_positions<Dim, Shape>(state, model, dt);
     evaluate_conditions(state, model, dt);
     evaluate_loads(state.time + lead, model, load_values, body_force, damping);
-    check_prescribed(state, model, load_values, body_force, damping);
+    particle_damping = model.particle_damping(state.time + lead, {});
+    check_prescribed(state, model, load_values, body_force, damping, particle_damping);
     assign_velocity_fields<Dim, Shape>(state, model, dt);  // Task 0
     record_initial_volume<Dim, Shape>(state, model);
   });
@@ -106,17 +110,33 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     account_loads<Dim, Shape>(state, model, b, dt);
     account_mirrored_forces<Dim, Shape>(state, model, b, dt, load_values, body_force, damping);
   });
-  if (model.re_extrapolates()) {
-    phases.blocks("update velocities", [&](B b) { update_velocities_and_project<Dim, Shape>(state, model, b, dt); });  // Tasks 5, 6
+  if (transfer.terms > 0) {  // XPIC, FMPM
+    phases.blocks("filter velocities", [&](B b) { start_series(state, transfer, b, dt); });
+    for (int term = 2; term <= transfer.terms; ++term) {
+      phases.blocks("filter velocities", [&](B b) { project_term<Dim, Shape>(state, model, transfer, b, term); });
+      phases.blocks("filter velocities", [&](B b) { add_term<Dim, Shape>(state, model, b, dt); });
+    }
+  }
+  const VelocityRule rule = velocity_rule(model.transfer, transfer, scheme, dt, particle_damping);
+  if (transfer.re_extrapolates) {
+    phases.blocks("update velocities", [&](B b) {  // Tasks 5, 6
+      if (rule.is_flip()) {
+        update_velocities_and_project<Dim, Shape>(state, model, b, dt);
+      } else {
+        take_velocities_and_project<Dim, Shape>(state, model, b, rule);
+      }
+    });
     phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });  // Task 6
     phases.blocks("account loads", [&](B b) { account_loads_anew<Dim, Shape>(state, b, dt); });
+  } else if (!rule.is_flip()) {
+    phases.blocks("update velocities", [&](B b) { take_velocities<Dim, Shape>(state, model, b, rule); });  // Task 5
   }
   phases.serial("remember contacts", [&] {
     remember_contacts(state);
     remember_rigid_conditions(state, model);
   });
   phases.blocks("stress and positions", [&](B b) {  // Tasks 5, 6
-    finish_particles<Dim, Shape>(state, model, b, dt, stress_last ? stress_dt : 0., !model.re_extrapolates());
+    finish_particles<Dim, Shape>(state, model, b, dt, stress_last ? stress_dt : 0., !transfer.re_extrapolates && rule.is_flip());
   });
   phases.serial("move cracks", [&] {  // Task 8
     move_cracks(state, model, dt);

@@ -147,6 +147,11 @@ void remember_rigid_conditions(State<Dim>& state, const Model<Dim>& model) {
 }
 
 template <int Dim>
+void clear_fixed_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t) { state.nodes.momentum[i][c.axis] = 0; });
+}
+
+template <int Dim>
 void impose_symmetry(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   if (model.symmetries.empty()) return;
   for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
@@ -226,6 +231,7 @@ unsigned fixed_axes(const State<Dim>& state, std::size_t b, int node) {
   template void evaluate_conditions<DIM>(State<DIM>&, const Model<DIM>&, double);        \
   template void prescribe_by_rigid<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);    \
   template void remember_rigid_conditions<DIM>(State<DIM>&, const Model<DIM>&);          \
+  template void clear_fixed_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);   \
   template void impose_symmetry<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);       \
   template void impose_start_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);  \
   template void impose_forces<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double); \

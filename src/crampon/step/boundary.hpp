@@ -30,6 +30,10 @@ void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t 
 template <int Dim>
 void remember_rigid_conditions(State<Dim>& state, const Model<Dim>& model);
 
+/// Takes all momentum from prescribed components, in the terms of a series for velocities (step/filter_velocities.hpp). Own nodes of one block.
+template <int Dim>
+void clear_fixed_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block);
+
 /// Takes the normal momentum from nodes on symmetry planes, where mirror images meet. Own nodes of one block.
 template <int Dim>
 void impose_symmetry(State<Dim>& state, const Model<Dim>& model, std::size_t block);

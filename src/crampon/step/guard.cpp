@@ -100,7 +100,7 @@ void report_fast(const State<Dim>& state, const Model<Dim>& model, std::size_t b
 
 template <int Dim>
 void check_prescribed(const State<Dim>& state, const Model<Dim>& model, const std::vector<Vec<Dim>>& load_values,
-                      const Vec<Dim>& body_force, double damping) {
+                      const Vec<Dim>& body_force, double damping, double particle_damping) {
   const auto need = [&](bool is_number, const std::string& what, const std::string& name) {
     if (is_number) return;
     throw RunError(fmt::format("step {} (t = {:.6g} s): {}{} is not a number; correct the table or expression that gives it",
@@ -117,13 +117,16 @@ void check_prescribed(const State<Dim>& state, const Model<Dim>& model, const st
   }
   for (std::size_t l = 0; l < load_values.size(); ++l) need(is_finite(load_values[l]), "the value of", model.loads[l].name);
   need(is_finite(body_force), "the body force", "");
-  need(std::isfinite(damping), "the damping", "");
-  if (damping < 0) {
+  const auto check_damping = [&](double value, const char* what) {
+    need(std::isfinite(value), what, "");
+    if (value >= 0) return;
     throw RunError(
-        fmt::format("step {} (t = {:.6g} s): the damping is {:.4g} 1/s, and below zero it drives the motion; correct the table or "
-                    "expression that gives it",
-                    state.step + 1, state.time, damping));
-  }
+        fmt::format("step {} (t = {:.6g} s): {} is {:.4g} 1/s, and below zero it drives the motion; correct the table or expression that "
+                    "gives it",
+                    state.step + 1, state.time, what, value));
+  };
+  check_damping(damping, "the damping");
+  check_damping(particle_damping, "the damping of particles");
 }
 
 template <int Dim, class Shape>
@@ -157,7 +160,7 @@ void check_health(State<Dim>& state, const Model<Dim>& model, double dt) {
 }
 
 #define CRAMPON_INSTANTIATE(DIM) \
-  template void check_prescribed<DIM>(const State<DIM>&, const Model<DIM>&, const std::vector<Vec<DIM>>&, const Vec<DIM>&, double);
+  template void check_prescribed<DIM>(const State<DIM>&, const Model<DIM>&, const std::vector<Vec<DIM>>&, const Vec<DIM>&, double, double);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE

@@ -8,7 +8,7 @@ namespace crampon {
 /// that names the first that is not a number, and for damping below zero.
 template <int Dim>
 void check_prescribed(const State<Dim>& state, const Model<Dim>& model, const std::vector<Vec<Dim>>& load_values,
-                      const Vec<Dim>& body_force, double damping);
+                      const Vec<Dim>& body_force, double damping, double particle_damping);
 
 /// Looks at what the blocks reported. Throws RunError naming step, time, particle, its position, the nearest crack and the advice that
 /// usually helps; removes particles that left the grid when the input says so.

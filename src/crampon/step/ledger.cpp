@@ -55,6 +55,7 @@ void close_ledger(State<Dim>& state, const Model<Dim>& model) {
     state.energy.body_work += ledger.body_work;
     state.energy.boundary_work += ledger.boundary_work;
     state.energy.damping += ledger.damping;
+    state.energy.transfer_loss += ledger.transfer_loss;
     state.energy.contact_loss += ledger.contact_loss;
     state.energy.friction_loss += ledger.friction_loss;
     state.energy.interfaces += ledger.interface_energy;

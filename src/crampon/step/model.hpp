@@ -21,6 +21,7 @@
 #include "crampon/state/grid.hpp"
 #include "crampon/state/layers.hpp"
 #include "crampon/step/loaded_faces.hpp"
+#include "crampon/step/transfer.hpp"
 
 namespace crampon {
 
@@ -111,6 +112,8 @@ struct Model {
   std::vector<ValueFunction> body_force;  ///< per component or empty, m/s2
   ValueFunction damping;                  ///< 1/s
   bool damped = false;
+  ValueFunction particle_damping;  ///< 1/s
+  TransferSpec transfer;
   StressUpdate stress_update = StressUpdate::usavg;
   PositionUpdate positions = PositionUpdate::strain;
   ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
@@ -134,11 +137,7 @@ struct Model {
   } contact;
   int threads = 1;
 
-  /// Task 6: are momenta extrapolated from particles once more, to strain them or to move them?
-  bool re_extrapolates() const {
-    return stress_update == StressUpdate::musl || stress_update == StressUpdate::usavg ||
-           (stress_update == StressUpdate::usf && positions == PositionUpdate::strain);
-  }
+  StepTransfer transfer_in(std::int64_t step) const { return step_transfer(transfer, stress_update, positions, step); }
   bool any_body_force() const { return !body_force.empty(); }
   bool any_tractions() const {
     return std::any_of(tractions.begin(), tractions.end(), [](const CrackTraction& t) { return t.acts(); });

@@ -66,7 +66,7 @@ template <int Dim, class Shape>
 void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
   if (!bears_loads(state.scratch[b])) return;
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
-  const double share = model.re_extrapolates() ? 0.5 : 1.;  // account_loads_anew adds the other half
+  const double share = model.transfer_in(state.step).re_extrapolates ? 0.5 : 1.;  // account_loads_anew adds the other half
   double power = 0;
   for_touched<Dim, Shape>(state, b, [&](std::size_t i) {
     for (int k = 0; k < Dim; ++k) {

@@ -60,6 +60,7 @@ struct FaceStates {
 template <int Dim>
 struct BlockLedger {
   double load_work = 0, body_work = 0, damping = 0, contact_loss = 0, friction_loss = 0, boundary_work = 0;  ///< J
+  double transfer_loss = 0;  ///< what particles lose by taking velocities from nodes, J
   struct Reaction {
     std::uint16_t condition;
     Vec<Dim> force;
@@ -79,7 +80,7 @@ struct BlockLedger {
     at->force[axis] += force;
   }
   void clear() {
-    interface_energy = load_work = body_work = damping = contact_loss = friction_loss = boundary_work = 0;
+    interface_energy = load_work = body_work = damping = contact_loss = friction_loss = boundary_work = transfer_loss = 0;
     reactions.clear();
     rigid.clear();
     unsolved_nodes = crowded_nodes = 0;
@@ -98,7 +99,7 @@ struct BlockHealth {
 
 /// Energy totals since the start, J.
 struct EnergyTotals {
-  double load_work = 0, body_work = 0, boundary_work = 0, damping = 0, contact_loss = 0, friction_loss = 0;
+  double load_work = 0, body_work = 0, boundary_work = 0, damping = 0, contact_loss = 0, friction_loss = 0, transfer_loss = 0;
   double interfaces = 0;  ///< held by interfaces now
 };
 

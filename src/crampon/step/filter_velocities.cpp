@@ -1,0 +1,113 @@
+#include "crampon/step/filter_velocities.hpp"
+
+#include "crampon/step/adjust_contact.hpp"
+#include "crampon/step/boundary.hpp"
+#include "crampon/step/instantiate.hpp"
+#include "crampon/step/packs.hpp"
+#include "crampon/step/tile_buffer.hpp"
+
+namespace crampon {
+
+// In a series, velocity holds the present term w; the first part of motion is v' and takes up the terms beyond the first.
+
+namespace {
+
+/// f(slot, in a deformable field) for the own nodes of a block in all layers.
+template <int Dim, class F>
+void for_slots(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F f) {
+  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    const bool deformable = !model.is_rigid(layers.node[l].field);
+    for (int n = 0; n < block_nodes<Dim>; ++n) f(layers.slot(l, n), deformable);
+  }
+}
+
+template <int Dim>
+NodalVector<Dim> acceleration(const MotionRecord<Dim>& motion) {
+  if constexpr (Dim == 2) {
+    return Pair{motion.r[0][2], motion.r[0][3]};
+  } else {
+    return motion.r[1];
+  }
+}
+template <int Dim>
+NodalVector<Dim> moving(const MotionRecord<Dim>& motion) {
+  return leading<Dim>(motion.r[0]);
+}
+template <int Dim>
+void set_moving(MotionRecord<Dim>& motion, NodalVector<Dim> v) {
+  if constexpr (Dim == 2) {
+    motion.r[0] = Pack{v[0], v[1], motion.r[0][2], motion.r[0][3]};
+  } else {
+    motion.r[0] = v;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void start_series(State<Dim>& state, const StepTransfer& transfer, std::size_t b, double dt) {
+  Nodes<Dim>& nodes = state.nodes;
+  const std::size_t first = nodes.layers[b].slot(0, 0), end = nodes.layers[b].slot(nodes.layers[b].node.size(), 0);
+  const NodalVector<Dim> back = splat_as<NodalVector<Dim>>(transfer.of_start ? dt : 0.);
+  for (std::size_t i = first; i < end; ++i) nodes.velocity[i] = moving(nodes.motion[i]) - back * acceleration(nodes.motion[i]);
+}
+
+template <int Dim, class Shape>
+void project_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer& transfer, std::size_t b, int term) {
+  if (!state.blocks.list[b].has_particles()) return;
+  const NodalVector<Dim>* w = gathered<Dim, Shape>(state, b, state.nodes.velocity);
+  Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
+  const PairOffsets<Dim>& faces = state.nodes.layers[b].offsets;
+  // Faces move with the first term; in the others they stand still.
+  std::vector<Pack> offsets = transfer.of_start ? faces.start : faces.end;
+  if (term > 2) std::fill(offsets.begin(), offsets.end(), splat(0.));
+  for_packs<Dim, Shape>(state, model, b,
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
+                          const Pack m_p = state.particles.mass_volume[2 * std::size_t{pack}];
+                          Pack record[lanes];
+                          for (int l = 0; l < lanes; ++l) {
+                            NodalVector<Dim> u = splat_as<NodalVector<Dim>>(0.);
+                            for_stencil<Dim, Shape>(stencil, targets, l, w, [&](const NodalVector<Dim>& w_i, int n, const PairTarget& t) {
+                              const NodalVector<Dim> read = targets ? flipped(w_i, t.flip) + leading<Dim>(offsets[t.offset]) : w_i;
+                              u = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), read, u);
+                            });
+                            record[l] = as_record<Dim>(u);
+                            record[l][Dim] = 1;
+                            record[l] *= splat(m_p[l]);
+                          }
+                          scatter<Dim, Shape>(stencil, targets, offsets.data(), record, tiles);
+                        });
+}
+
+template <int Dim, class Shape>
+void add_term(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  Nodes<Dim>& nodes = state.nodes;
+  const BlockLayers<Dim>& layers = nodes.layers[b];
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_momentum, &nodes.momentum[layers.slot(l, 0)]);
+  }
+  for_slots(state, model, b, [&](std::size_t i, bool deformable) {
+    Pack& p = nodes.momentum[i];
+    const double mass = p[Dim];
+    p = deformable ? as_record<Dim>(nodes.velocity[i]) * splat(mass) - as_record<Dim>(leading<Dim>(p)) : splat(0.);
+    p[Dim] = mass;
+  });
+  adjust_contact(state, model, b, ContactTask::term, dt);
+  clear_fixed_momenta(state, model, b);
+  for_slots(state, model, b, [&](std::size_t i, bool) {
+    const Pack p = nodes.momentum[i];
+    nodes.velocity[i] = leading<Dim>(p * splat(p[Dim] > 0 ? 1 / p[Dim] : 0.));
+    set_moving(nodes.motion[i], moving(nodes.motion[i]) + nodes.velocity[i]);
+  });
+}
+
+template void start_series<2>(State<2>&, const StepTransfer&, std::size_t, double);
+template void start_series<3>(State<3>&, const StepTransfer&, std::size_t, double);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                          \
+  template void project_term<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, const StepTransfer&, std::size_t, int); \
+  template void add_term<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

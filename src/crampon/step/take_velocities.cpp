@@ -1,0 +1,78 @@
+#include "crampon/step/take_velocities.hpp"
+
+#include "crampon/step/instantiate.hpp"
+#include "crampon/step/interpolate.hpp"
+#include "crampon/step/tile_buffer.hpp"
+
+namespace crampon {
+
+namespace {
+
+/// {v', a}: of nodes, at the particle p.
+template <int Dim>
+void take_velocity(Particles<Dim>& particles, std::size_t p, const MotionRecord<Dim>& m, const VelocityRule& rule,
+                   BlockLedger<Dim>& ledger) {
+  const Vec<Dim> V = particles.velocity(p);
+  Vec<Dim> g, taken, damped;
+  for (int k = 0; k < Dim; ++k) {
+    const double v = m.r[0][k], a = Dim == 2 ? m.r[0][2 + k] : m.r[motion_packs<Dim> - 1][k];
+    g[k] = a * rule.dt;
+    taken[k] = rule.own * V[k] + rule.nodal * v + rule.gain * a;
+    damped[k] = taken[k] - rule.damped * V[k];
+  }
+  // Kinetic energy that is missing then, and work on strain that changes with it.
+  const auto loss = [&](const Vec<Dim>& from, const Vec<Dim>& to) {
+    return particles.mass(p) * (0.5 * (dot(from, from) - dot(to, to)) + rule.strain_share * dot(g, to - from));
+  };
+  if (rule.nodal > 0) ledger.transfer_loss += loss(V + g, taken);
+  ledger.damping += loss(taken, damped);
+  particles.set_motion(p, particles.position(p), damped);
+}
+
+/// `then(pack, stencil, targets)` follows for every pack.
+template <int Dim, class Shape, class Then>
+void for_taken(State<Dim>& state, const Model<Dim>& model, std::size_t b, const VelocityRule& rule, Then&& then) {
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
+  const auto& offsets = state.nodes.layers[b].offsets.motion;
+  BlockLedger<Dim>& ledger = state.scratch[b].ledger;
+  for_packs<Dim, Shape>(state, model, b,
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+                          const bool deformable = !model.is_rigid(model.materials[run.material].field);
+                          for (int l = 0; l < lanes && deformable; ++l) {
+                            const std::size_t p = std::size_t{pack} * lanes + static_cast<std::size_t>(l);
+                            take_velocity(state.particles, p, interpolate<Dim, Shape>(stencil, targets, l, motion, offsets), rule, ledger);
+                          }
+                          then(pack, stencil, targets);
+                        });
+}
+
+}  // namespace
+
+template <int Dim, class Shape>
+void take_velocities(State<Dim>& state, const Model<Dim>& model, std::size_t b, const VelocityRule& rule) {
+  if (!state.blocks.list[b].has_particles()) return;
+  for_taken<Dim, Shape>(state, model, b, rule, [](std::uint32_t, const Stencil<Dim, Shape>&, const PairTarget*) {});
+}
+
+template <int Dim, class Shape>
+void take_velocities_and_project(State<Dim>& state, const Model<Dim>& model, std::size_t b, const VelocityRule& rule) {
+  if (!state.blocks.list[b].has_particles()) return;
+  Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
+  const Pack* offsets = state.nodes.layers[b].offsets.end.data();
+  for_taken<Dim, Shape>(state, model, b, rule, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
+    Pack record[lanes];
+    for (int l = 0; l < lanes; ++l) {
+      const std::size_t p = std::size_t{pack} * lanes + static_cast<std::size_t>(l);
+      record[l] = state.particles.momentum_record(p, state.particles.mass(p));
+    }
+    scatter<Dim, Shape>(stencil, targets, offsets, record, tiles);
+  });
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                        \
+  template void take_velocities<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, const VelocityRule&); \
+  template void take_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, const VelocityRule&);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon
