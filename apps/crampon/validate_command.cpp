@@ -27,6 +27,12 @@ int validate_command(const ValidateArguments& arguments) {
   line("steps", count_text(static_cast<double>(size.steps)));
   line("time step", fmt::format("{:.6g} s", size.time_step));
   line("end time", fmt::format("{:.6g} s", end_time));
+  const auto swing = estimate_slowest_swing(problem);
+  const auto acts = [](const ValueFunction& damping) { return damping.depends_on_time() || damping(0, {}) != 0; };
+  if (swing && (problem.time.stop_at_rest || acts(problem.method.damping) || acts(problem.method.particle_damping)))
+    line("damping",
+         fmt::format("{:.2g} 1/s would just keep \"{}\" from swinging (estimated from its size and wave speed); less rings, more creeps",
+                     swing->critical_damping(), swing->body));
   line("memory", bytes_text(size.memory_bytes));
   std::vector<std::string> notes = simulation->notes_at_start();
   if (std::string note = threads_note(arguments.threads); !note.empty()) notes.push_back(std::move(note));

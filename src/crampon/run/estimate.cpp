@@ -1,7 +1,10 @@
 #include "crampon/run/estimate.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace crampon {
 
@@ -31,6 +34,33 @@ RunEstimate estimate_run(Simulation& simulation, double budget) {
     estimate.seconds_per_step = first;
   estimate.seconds = estimate.seconds_per_step * static_cast<double>(planned);
   return estimate;
+}
+
+std::optional<SlowestSwing> estimate_slowest_swing(const Problem& problem) {
+  const StressState state = problem.analysis == Analysis::plane_strain   ? StressState::plane_strain
+                            : problem.analysis == Analysis::plane_stress ? StressState::plane_stress
+                                                                         : StressState::three_dimensional;
+  std::optional<SlowestSwing> slowest;
+  for (const BodyInput& body : problem.bodies) {
+    if (!body.shape) continue;
+    const auto material =
+        std::find_if(problem.materials.begin(), problem.materials.end(), [&](const MaterialInput& m) { return m.name == body.material; });
+    if (material == problem.materials.end()) continue;
+    const Bounds3 box = body.shape->bounds();
+    double longest = 0, shortest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < problem.dimension(); ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      const double grid_low = problem.grid.origin[axis], grid_high = grid_low + problem.grid.size[axis];  // shapes may be infinite
+      const double side = std::fmin(box.high[k], grid_high) - std::fmax(box.low[k], grid_low);
+      longest = std::fmax(longest, side);
+      shortest = std::fmin(shortest, side);
+    }
+    if (!(longest > 0)) continue;
+    const double c = material->law->wave_speed(state);
+    const double frequency = std::fmin(std::numbers::pi * c / (2 * longest), 1.015 * c * shortest / (longest * longest));
+    if (!slowest || frequency < slowest->frequency) slowest = SlowestSwing{body.name, frequency};
+  }
+  return slowest;
 }
 
 }  // namespace crampon
