@@ -8,6 +8,24 @@
 
 namespace crampon::app {
 
+namespace {
+
+/// How much damping is wanted: where there is some, or where rest is waited for.
+std::string damping_advice(const Problem& problem) {
+  const auto acts = [](const ValueFunction& damping) { return damping.depends_on_time() || damping(0, {}) != 0; };
+  const auto swing = estimate_slowest_swing(problem);
+  if (!swing || !(problem.time.stop_at_rest || acts(problem.method.damping) || acts(problem.method.particle_damping))) return "";
+  const std::string bending =
+      swing->bending < swing->along ? fmt::format(", {:.3g} 1/s for bending", critical_damping(swing->bending)) : "";
+  return fmt::format(
+      "critical at {:.3g} 1/s for waves along \"{}\"{}, if it is held at one end (estimated from its size and wave speed); less rings, "
+      "more "
+      "creeps",
+      critical_damping(swing->along), swing->body, bending);
+}
+
+}  // namespace
+
 int validate_command(const ValidateArguments& arguments) {
   const Problem problem = read_problem(arguments.input, arguments.settings);
   const int threads = usable_threads(arguments.threads);
@@ -27,12 +45,7 @@ int validate_command(const ValidateArguments& arguments) {
   line("steps", count_text(static_cast<double>(size.steps)));
   line("time step", fmt::format("{:.6g} s", size.time_step));
   line("end time", fmt::format("{:.6g} s", end_time));
-  const auto swing = estimate_slowest_swing(problem);
-  const auto acts = [](const ValueFunction& damping) { return damping.depends_on_time() || damping(0, {}) != 0; };
-  if (swing && (problem.time.stop_at_rest || acts(problem.method.damping) || acts(problem.method.particle_damping)))
-    line("damping",
-         fmt::format("{:.2g} 1/s would just keep \"{}\" from swinging (estimated from its size and wave speed); less rings, more creeps",
-                     swing->critical_damping(), swing->body));
+  if (const std::string advice = damping_advice(problem); !advice.empty()) line("damping", advice);
   line("memory", bytes_text(size.memory_bytes));
   std::vector<std::string> notes = simulation->notes_at_start();
   if (std::string note = threads_note(arguments.threads); !note.empty()) notes.push_back(std::move(note));

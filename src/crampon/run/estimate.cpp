@@ -57,8 +57,8 @@ std::optional<SlowestSwing> estimate_slowest_swing(const Problem& problem) {
     }
     if (!(longest > 0)) continue;
     const double c = material->law->wave_speed(state);
-    const double frequency = std::fmin(std::numbers::pi * c / (2 * longest), 1.015 * c * shortest / (longest * longest));
-    if (!slowest || frequency < slowest->frequency) slowest = SlowestSwing{body.name, frequency};
+    const SlowestSwing swing{body.name, std::numbers::pi * c / (2 * longest), 1.015 * c * shortest / (longest * longest)};
+    if (!slowest || swing.frequency() < slowest->frequency()) slowest = swing;
   }
   return slowest;
 }

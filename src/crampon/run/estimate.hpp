@@ -1,6 +1,7 @@
 #pragma once
 /// How long will a run take, and how strong a damping brings it to rest?
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,17 +21,19 @@ struct RunEstimate {
 /// planned number of steps. The first step, which also sorts the particles, is left out of the rate when there are others.
 RunEstimate estimate_run(Simulation& simulation, double budget = 1);
 
-/// The slowest swing of the bodies that are given by shapes.
+/// The slowest free vibrations of a body as if it were held at one end of its longest side: angular frequencies, 1/s.
 struct SlowestSwing {
   std::string body;
-  double frequency = 0;  ///< angular, 1/s
-  /// Damping at which it just ceases to swing, 1/s: a = f/m - kappa v is critical at twice the angular frequency.
-  double critical_damping() const { return 2 * frequency; }
+  double along = 0;    ///< of a rod, pi c/(2 L), with c the wave speed of its material
+  double bending = 0;  ///< of a cantilever as thick as its shortest side t, 1.015 c t/L^2
+  double frequency() const { return std::fmin(along, bending); }
 };
 
-/// Of every body the lower of two: a rod of its longest side held at one end, pi c/(2 L), and a cantilever of its longest and shortest side,
-/// 1.015 c t/L^2, with c the wave speed of its material. How bodies are really held is not looked at: a factor of some units. Empty without a
-/// body that has a shape.
+/// Damping at which a vibration just ceases to swing, 1/s: a = f/m - kappa v is critical at twice the angular frequency.
+constexpr double critical_damping(double frequency) { return 2 * frequency; }
+
+/// Of the body that swings the slowest; shapes are taken for their boxes, and how bodies are really held is not looked at. Empty without a body
+/// that has a shape.
 std::optional<SlowestSwing> estimate_slowest_swing(const Problem& problem);
 
 }  // namespace crampon

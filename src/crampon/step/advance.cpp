@@ -110,6 +110,9 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     account_loads<Dim, Shape>(state, model, b, dt);
     account_mirrored_forces<Dim, Shape>(state, model, b, dt, load_values, body_force, damping);
   });
+  const VelocityRule rule = velocity_rule(model.transfer, transfer, scheme, dt, particle_damping);
+  const bool body_works_anew = transfer.re_extrapolates && !rule.is_flip() && model.any_body_force();
+  if (body_works_anew) phases.blocks("account loads", [&](B b) { account_body_force(state, model, b, -0.5 * dt, body_force); });
   if (transfer.terms > 0) {  // XPIC, FMPM
     phases.blocks("filter velocities", [&](B b) { start_series(state, transfer, b, dt); });
     for (int term = 2; term <= transfer.terms; ++term) {
@@ -117,7 +120,6 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
       phases.blocks("filter velocities", [&](B b) { add_term<Dim, Shape>(state, model, b, dt); });
     }
   }
-  const VelocityRule rule = velocity_rule(model.transfer, transfer, scheme, dt, particle_damping);
   if (transfer.re_extrapolates) {
     phases.blocks("update velocities", [&](B b) {  // Tasks 5, 6
       if (rule.is_flip()) {
@@ -127,7 +129,10 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
       }
     });
     phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });  // Task 6
-    phases.blocks("account loads", [&](B b) { account_loads_anew<Dim, Shape>(state, b, dt); });
+    phases.blocks("account loads", [&](B b) {
+      account_loads_anew<Dim, Shape>(state, b, dt);
+      if (body_works_anew) account_body_force(state, model, b, 0.5 * dt, body_force);
+    });
   } else if (!rule.is_flip()) {
     phases.blocks("update velocities", [&](B b) { take_velocities<Dim, Shape>(state, model, b, rule); });  // Task 5
   }

@@ -171,6 +171,16 @@ void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, d
   });
 }
 
+template <int Dim>
+void account_body_force(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const Vec<Dim>& body_force) {
+  const Nodes<Dim>& nodes = state.nodes;
+  double power = 0;
+  for_deformable(state, model, b, [&](std::size_t i) {
+    for (int k = 0; k < Dim; ++k) power += nodes.momentum[i][Dim] * body_force[k] * nodes.velocity[i][k];
+  });
+  state.scratch[b].ledger.body_work += power * dt;
+}
+
 template <int Dim, class Shape>
 void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
   assemble_momentum<Dim, Shape>(state, b);
@@ -186,6 +196,8 @@ void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t 
   if (model.positions == PositionUpdate::strain) move_with_velocities(state, b);
 }
 
+template void account_body_force<2>(State<2>&, const Model<2>&, std::size_t, double, const Vec<2>&);
+template void account_body_force<3>(State<3>&, const Model<3>&, std::size_t, double, const Vec<3>&);
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                   \
   template void assemble_momentum<DIM, SHAPE>(State<DIM>&, std::size_t);                                                  \
   template void find_shared_nodes<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                               \

@@ -24,6 +24,11 @@ void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_
 template <int Dim, class Shape>
 void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt, const Vec<Dim>& body_force, double damping);
 
+/// Adds the work of the body force over dt on the velocities at hand. Where particles do more than add accelerations, half of that of Task 4
+/// is taken back (dt < 0), and half of that of Task 6 comes in its place.
+template <int Dim>
+void account_body_force(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt, const Vec<Dim>& body_force);
+
 /// Task 6: assembles the re-extrapolated momenta (N03 Eq. 31), adjusts contact, imposes velocities; leaves nodal velocities,
 /// with which particles also move unless N03 Eq. 30 is chosen.
 template <int Dim, class Shape>

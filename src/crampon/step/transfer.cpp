@@ -6,17 +6,8 @@ namespace crampon {
 
 namespace {
 
-template <class Transfer>
-Declaration<Transfer> series(const char* name, const char* help) {
-  return Declaration<Transfer>(name, help)
-      .integer("order", &Transfer::order, Bounds::between(1, 20), "terms of the series; each beyond the first costs about half a step more")
-      .integer("every", &Transfer::every, Bounds::at_least(1), "act in every so many steps, with FLIP in between");
-}
-
-template <class Transfer>
-int terms_in(const Transfer& transfer, std::int64_t step) {
-  return step % transfer.every == 0 ? transfer.order : 0;
-}
+const Bounds most_terms = Bounds::between(1, 20);
+constexpr const char* order_help = "terms of the series; each beyond the first costs about half a step more";
 
 }  // namespace
 
@@ -29,14 +20,18 @@ const Declaration<FlipTransfer>& FlipTransfer::declaration() {
 }
 
 const Declaration<XpicTransfer>& XpicTransfer::declaration() {
-  static const auto d = series<XpicTransfer>(
-      "xpic", "Particles take the velocities of nodes at the start of the step, filtered to some order, and add accelerations.");
+  static const auto d =
+      Declaration<XpicTransfer>(
+          "xpic", "Particles take the velocities of nodes at the start of the step, filtered to some order, and add accelerations.")
+          .integer("order", &XpicTransfer::order, most_terms, order_help)
+          .integer("every", &XpicTransfer::every, Bounds::at_least(1), "act in every so many steps, with FLIP in between");
   return d;
 }
 
 const Declaration<FmpmTransfer>& FmpmTransfer::declaration() {
   static const auto d =
-      series<FmpmTransfer>("fmpm", "Particles take the velocities of nodes at the end of the step, filtered to some order.");
+      Declaration<FmpmTransfer>("fmpm", "Particles take the velocities of nodes at the end of the step, filtered to some order.")
+          .integer("order", &FmpmTransfer::order, most_terms, order_help);
   return d;
 }
 
@@ -53,8 +48,8 @@ StepTransfer step_transfer(const TransferSpec& transfer, StressUpdate update, Po
   StepTransfer out;
   const auto* xpic = std::get_if<XpicTransfer>(&transfer);
   const auto* fmpm = std::get_if<FmpmTransfer>(&transfer);
-  if (xpic) out.terms = terms_in(*xpic, step);
-  if (fmpm) out.terms = terms_in(*fmpm, step);
+  if (xpic && step % xpic->every == 0) out.terms = xpic->order;
+  if (fmpm) out.terms = fmpm->order;
   out.of_start = xpic != nullptr;
   out.re_extrapolates = update == StressUpdate::musl || update == StressUpdate::usavg || out.terms > 0 ||
                         (update == StressUpdate::usf && positions == PositionUpdate::strain);

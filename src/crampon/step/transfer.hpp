@@ -24,10 +24,10 @@ struct XpicTransfer {
 };
 
 /// FMPM(order) (Nairn & Hammerquist, CMAME 377 (2021)): the same for velocities at the end of the step: the first terms of the inverse
-/// of the full mass matrix. Order 1 is PIC.
+/// of the full mass matrix. Order 1 is PIC. In every step: accelerations of short waves are up to `order` times those of FLIP, and a change
+/// between the two shakes a body until it breaks (docs/decisions/0011-transfers.md).
 struct FmpmTransfer {
   int order = 2;
-  int every = 1;  ///< in every so many steps, FLIP in between
   static const Declaration<FmpmTransfer>& declaration();
 };
 
