@@ -95,7 +95,8 @@ TEST_P(SymmetryReaction, IsTheRateOfMomentum) {
   double worst = 0, largest_reaction = 0, time = 0;
   run(*simulation, [&](Simulation& s) {
     const double dt = s.time() - time;
-    const std::array<double, 3> weight{-20 * mass, (-30 - 500 * time) * mass, -25 * mass};
+    // Of the middle of the step, the time of positions.
+    const std::array<double, 3> weight{-20 * mass, (-30 - 500 * (time + 0.5 * dt)) * mass, -25 * mass};
     for (int k = 0; k < r.dim; ++k) {
       double force = weight[k] + pushed[k] + value(s, fmt::format("reaction_{}.lid", axes[k]));
       for (const char* name : {"wall", "floor", "more floor", "back"}) {

@@ -105,11 +105,23 @@ const std::vector<Quantity>& quantities() {
   return list;
 }
 
+/// Position and velocity at the present time; of rigid bodies as prescribed.
 template <int Dim>
-void fill_sample(const State<Dim>& state, std::size_t p, const PackReport& report, std::uint32_t material, Sample& s) {
+std::pair<Vec<Dim>, Vec<Dim>> present_motion(const State<Dim>& state, const Model<Dim>& model, std::size_t p, std::uint32_t material) {
+  const Particles<Dim>& particles = state.particles;
+  const MaterialField& field = model.fields[model.materials[material].field];
+  if (!field.rigid || particles.lead == 0) return {particles.present_position(p), particles.velocity(p)};
+  const RigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(field.body)];
+  const Vec<Dim> x = motion.present.place(particles.original[p] - model.rigid_bodies[static_cast<std::size_t>(field.body)].centre);
+  return {x, motion.start.velocity_at(x)};
+}
+
+template <int Dim>
+void fill_sample(const State<Dim>& state, const Model<Dim>& model, std::size_t p, const PackReport& report, std::uint32_t material,
+                 Sample& s) {
   const Particles<Dim>& particles = state.particles;
   const auto l = p % lanes;
-  const Vec<Dim> x = particles.present_position(p), v = particles.velocity(p);
+  const auto [x, v] = present_motion(state, model, p, material);
   s.x = s.X = s.v = {};
   for (std::size_t k = 0; k < Dim; ++k) s.x[k] = x[k], s.v[k] = v[k], s.X[k] = particles.original[p][k];
   const Pack* stress = &particles.stress[p / lanes * stress_size<Dim>];
@@ -218,7 +230,7 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
       for (std::size_t p = k * lanes; p < (k + 1) * lanes; ++p) {
         if (state.particles.is_padding(p)) continue;
         Sample sample;
-        fill_sample(state, p, report, run.material, sample);
+        fill_sample(state, model, p, report, run.material, sample);
         const std::size_t row = rows[state.particles.id[p]];
         frame.positions.set_row(row, sample.x.c.data());
         if (!one_size) frame.particle_size.set_row(row, size.data());
