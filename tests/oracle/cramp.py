@@ -100,7 +100,9 @@ class Model:
             self.update_stress(dt / 2)
         self.store_contact_state()
         for p, x in zip(self.particles, moved):
-            p.x = x
+            p.moved_with = [(x[k] - p.x[k]) / dt for k in range(2)]
+            # What was led on before the step by the particle's own velocity is to have been led by this one.
+            p.x = [x[k] + further * (p.moved_with[k] - p.v[k]) for k in range(2)]
         move_cracks(self)                                      # Task 8 of N13
         self.k += 1
         self.t = self.k * dt

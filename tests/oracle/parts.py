@@ -53,6 +53,7 @@ class Particle:
         self.X = (row[0], row[1])
         self.volume = row[2]  # m3: area times thickness
         self.v = [row[3], row[4]]
+        self.moved_with = list(self.v)
         self.mass = material["density"] * row[2]
         self.thickness = body.get("thickness", 1.0)
         self.material = LAWS[material["law"]](material, analysis)
@@ -60,8 +61,8 @@ class Particle:
         self.pairs = []
 
     def present(self, lead):
-        """Position at the present time, which the one that the step works with leads."""
-        return [self.x[k] - lead * self.v[k] for k in range(2)]
+        """Position at the present time, which the one that the step works with leads: taken back by the velocity with which it moved last."""
+        return [self.x[k] - lead * self.moved_with[k] for k in range(2)]
 
     def area(self):
         return self.material.area_ratio() * self.volume / self.thickness

@@ -25,7 +25,7 @@ class FakeSimulation : public Simulation {
   std::int64_t fail_in_step = -1;
   std::vector<double> ends_of_steps;  // s
 
-  void step(double longest) override {
+  void step(double longest, const NextLook&) override {
     if (steps_ + 1 == fail_in_step) {
       broken_ = true;
       throw RunError("step 4, particle 1: NaN; take a smaller time step");

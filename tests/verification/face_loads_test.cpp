@@ -42,7 +42,7 @@ Moment<Dim> step_once(const std::string& text, const Vec<Dim>& moved, const std:
       scale = std::fmax(scale, std::fabs(stress[c]));
     }
   }
-  advance<Dim, Shape>(state, built.model, dt);
+  advance<Dim, Shape>(state, built.model, dt, Watched::no);
   Moment<Dim> m;
   for (std::size_t p = 0; p < state.particles.size(); ++p) {
     m.unbalance = std::fmax(m.unbalance, norm(state.particles.velocity(p)) * state.particles.mass(p) / (scale * dt));

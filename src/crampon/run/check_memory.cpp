@@ -41,7 +41,7 @@ double cell_measure(const Problem& problem) {
 template <int Dim>
 double bytes_of_particle(int history) {
   const double packs = motion_packs<Dim> + (2. + stress_size<Dim> + history) / lanes;
-  return 2 * (packs * sizeof(Pack) + sizeof(Vec<Dim>) + sizeof(std::uint32_t) + sizeof(std::uint16_t));
+  return 2 * (packs * sizeof(Pack) + 2 * sizeof(Vec<Dim>) + sizeof(std::uint32_t) + sizeof(std::uint16_t));
 }
 
 /// Nodes and tiles per cell that holds particles: momenta, forces, motion (state/nodes.hpp).

@@ -40,6 +40,11 @@ class Recorder {
   }
 
   double next_frame_time() const { return frames_.next_time(); }
+  /// The next state that is written.
+  NextLook next_look() const {
+    const std::int64_t steps = simulation_.steps_done();
+    return {std::min(frames_.next_step(steps), rows_.next_step(steps)), std::min(frames_.next_time(), rows_.next_time())};
+  }
   const ResultsFolder& folder() const { return folder_; }
   double seconds() const { return seconds_; }
 
@@ -234,21 +239,25 @@ RunOutcome run_problem(const Problem& problem, Simulation& simulation, const Run
     recorder.record_state();
     recorder.finish_start();
     record.status = "finished";
+    bool was_announced = true;  // to the simulation: the present state will be looked at
     while (!simulation.finished()) {
       if (options.most_steps && simulation.steps_done() >= *options.most_steps) {
         outcome.end = RunOutcome::End::shortened;
         record.status = "shortened";
         break;
       }
-      if (options.interrupt != nullptr && options.interrupt->load()) {
+      const bool interrupted = options.interrupt != nullptr && options.interrupt->load();
+      if (interrupted && was_announced) {
         outcome.end = RunOutcome::End::interrupted;
         record.status = "interrupted";
         break;
       }
+      NextLook look = interrupted ? NextLook{} : recorder.next_look();
+      if (options.most_steps) look.step = std::min(look.step, *options.most_steps);
       const double before = simulation.time();
       const Clock::time_point start = Clock::now();
       try {
-        simulation.step(recorder.next_frame_time());
+        simulation.step(recorder.next_frame_time(), look);
       } catch (const RunError& error) {
         outcome.end = RunOutcome::End::stopped;
         outcome.message = error.what();
@@ -256,6 +265,7 @@ RunOutcome run_problem(const Problem& problem, Simulation& simulation, const Run
         break;
       }
       stepping += seconds_between(start, Clock::now());
+      was_announced = simulation.steps_done() >= look.step || simulation.time() >= look.time;
       // A sum of a million time steps is off by less than this part of one.
       recorder.record_step(1e-6 * (simulation.time() - before));
       if (options.progress)

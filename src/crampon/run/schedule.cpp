@@ -5,6 +5,14 @@
 
 namespace crampon {
 
+namespace {
+
+std::int64_t next_multiple(std::int64_t every, std::int64_t after) {
+  return every > 0 ? (after / every + 1) * every : std::numeric_limits<std::int64_t>::max();
+}
+
+}  // namespace
+
 FrameSchedule::FrameSchedule(const OutputInput& output)
     : every_(output.every.value_or(0)), every_steps_(output.every_steps.value_or(0)), times_(output.times) {
   std::sort(times_.begin(), times_.end());
@@ -14,6 +22,8 @@ double FrameSchedule::next_time() const {
   const double listed = next_listed_ < times_.size() ? times_[next_listed_] : std::numeric_limits<double>::infinity();
   return std::min(listed, next_regular());
 }
+
+std::int64_t FrameSchedule::next_step(std::int64_t steps) const { return next_multiple(every_steps_, steps); }
 
 bool FrameSchedule::take(double time, std::int64_t steps, double slack) {
   const bool by_steps = every_steps_ > 0 && steps > 0 && steps % every_steps_ == 0;
@@ -34,6 +44,10 @@ HistorySchedule::HistorySchedule(const OutputInput& output, const TimeInput& tim
   }
   next_ = every_;
 }
+
+double HistorySchedule::next_time() const { return every_ > 0 ? next_ : std::numeric_limits<double>::infinity(); }
+
+std::int64_t HistorySchedule::next_step(std::int64_t steps) const { return next_multiple(every_steps_, steps); }
 
 bool HistorySchedule::take(double time, std::int64_t steps, double slack) {
   const bool by_steps = every_steps_ > 0 && steps % every_steps_ == 0;

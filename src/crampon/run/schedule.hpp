@@ -16,6 +16,8 @@ class FrameSchedule {
 
   /// Time of the next frame, s; infinity when none is due at a time. A step must not reach beyond it.
   double next_time() const;
+  /// The next number of steps, after so many, at which a frame is due; the largest number when none is due by steps.
+  std::int64_t next_step(std::int64_t steps) const;
 
   /// Is a frame due now? Every time up to now then counts as done.
   /// slack, s: a time this close ahead counts as reached, as sums of time steps carry round-off.
@@ -37,6 +39,9 @@ class HistorySchedule {
   /// end_time, s: of the run; without any wish in the input it is divided into `default_rows`.
   HistorySchedule(const OutputInput& output, const TimeInput& time, double end_time);
   bool take(double time, std::int64_t steps, double slack);
+  /// As FrameSchedule tells them.
+  double next_time() const;
+  std::int64_t next_step(std::int64_t steps) const;
 
   static constexpr std::int64_t default_rows = 998;  ///< with the first and the last row at most 1000
 

@@ -50,7 +50,7 @@ class Engine final : public Simulation {
     }
   }
 
-  void step(double longest) override {
+  void step(double longest, const NextLook& next_look) override {
     if (!time_.step && watches_wave_speed_ && state_.step % 10 == 0 && state_.step > 0) time_step_ = time_.courant * stable_time_step();
     double dt = longest_step();
     if (!time_.step && state_.traction_time_step < shortest_for_tractions * time_step_)
@@ -63,7 +63,7 @@ class Engine final : public Simulation {
     } else if (left > 0 && !time_.step && left < 2 * dt) {
       dt = 0.5 * left;  // no sliver of a step at the end
     }
-    advance<Dim, Shape>(state_, model_, dt);
+    advance<Dim, Shape>(state_, model_, dt, is_watched(dt, next_look) ? Watched::yes : Watched::no);
     if (hits) state_.time = std::fmin(longest, end_time_or_infinity());  // to the bit
     look_for_rest();
   }
@@ -305,6 +305,13 @@ class Engine final : public Simulation {
     PointFrame frame = sample_particles(state_, model_, is_known(field) ? std::vector{field} : known);
     Quantity all = evaluate_quantity(frame, quantity);
     return {frame.fields.front().values.doubles(), {quantity, all.unit, 1, std::move(all.values)}};
+  }
+
+  /// A sum of time steps may fall short of the time of a look by round-off.
+  bool is_watched(double dt, const NextLook& look) const {
+    const double end = state_.time + dt * (1 + 1e-4);
+    const bool last = end >= end_time_or_infinity() || (time_.steps && state_.step + 1 >= *time_.steps);
+    return last || state_.step + 1 >= look.step || end >= look.time;
   }
 
   double end_time_or_infinity() const { return time_.end ? end_ : std::numeric_limits<double>::infinity(); }

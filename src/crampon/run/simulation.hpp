@@ -2,6 +2,7 @@
 /// A problem brought to life: the one door between the engine and everything around it (program, output, tests).
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +37,12 @@ struct LoadSummary {
   double area = 0;            ///< of the faces that it acts on, m2; 0: it acts on particles
 };
 
+/// The next state that someone will look at: the first after so many steps since the start, or at or after a time.
+struct NextLook {
+  std::int64_t step = 0;                                  ///< 0: any state
+  double time = std::numeric_limits<double>::infinity();  ///< s
+};
+
 class Simulation {
  public:
   /// Builds particles, cracks and grid. threads <= 0: all cores. Throws InputError for what does not fit into memory, before anything is
@@ -46,7 +53,10 @@ class Simulation {
   /// Advances by one time step. Throws RunError (NaN, particle out of the grid, inverted particle); the state before the step is
   /// then no longer complete, but particles() still shows it for inspection.
   /// longest: do not step further than this time (s), so that output times are hit exactly; a time that is not ahead is no limit.
-  virtual void step(double longest) = 0;
+  /// next_look: positions, probes of displacements and what follows from them are exact in the states announced; in others they are only
+  /// close, for the step works with positions half a step ahead and keeps what is needed to take them back only where someone will look.
+  virtual void step(double longest, const NextLook& next_look) = 0;
+  void step(double longest) { step(longest, {}); }
 
   virtual double time() const = 0;  ///< s
   virtual std::int64_t steps_done() const = 0;

@@ -27,16 +27,18 @@ inline constexpr std::uint32_t padding_id = std::numeric_limits<std::uint32_t>::
 template <int Dim>
 struct Particles {
   std::size_t packs = 0;
-  int history_size = 0;              ///< Packs of material history per pack
-  double lead = 0;                   ///< of positions before the present time, s
-  AlignedArray<Pack> motion;         ///< [particle][motion_packs]: m, m/s
-  AlignedArray<Pack> mass_volume;    ///< [pack][2]: mass kg, initial volume m3
-  AlignedArray<Pack> stress;         ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
-  AlignedArray<Pack> history;        ///< [pack][history_size]: strain or deformation gradient and the law's own variables
-  AlignedArray<Vec<Dim>> original;   ///< [particle]: position at the start, m
-  AlignedArray<double> contact;      ///< [particle]: what it remembers of contact (ContactPair::history); empty when no law asks
-  AlignedArray<std::uint32_t> id;    ///< [particle]: number in the order of creation
-  AlignedArray<std::uint16_t> body;  ///< [particle]
+  int history_size = 0;               ///< Packs of material history per pack
+  double lead = 0;                    ///< of positions before the present time, s
+  bool watched = false;               ///< moved_with belongs to the last step
+  AlignedArray<Pack> motion;          ///< [particle][motion_packs]: m, m/s
+  AlignedArray<Pack> mass_volume;     ///< [pack][2]: mass kg, initial volume m3
+  AlignedArray<Pack> stress;          ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
+  AlignedArray<Pack> history;         ///< [pack][history_size]: strain or deformation gradient and the law's own variables
+  AlignedArray<Vec<Dim>> original;    ///< [particle]: position at the start, m
+  AlignedArray<double> contact;       ///< [particle]: what it remembers of contact (ContactPair::history); empty when no law asks
+  AlignedArray<Vec<Dim>> moved_with;  ///< [particle]: velocity with which it moved in the last step, m/s; kept where someone will look
+  AlignedArray<std::uint32_t> id;     ///< [particle]: number in the order of creation
+  AlignedArray<std::uint16_t> body;   ///< [particle]
 
   std::size_t size() const { return packs * lanes; }
 
@@ -53,8 +55,8 @@ struct Particles {
     body.resize_discarding(size());
   }
   std::size_t bytes() const {
-    return motion.bytes() + mass_volume.bytes() + stress.bytes() + history.bytes() + original.bytes() + contact.bytes() + id.bytes() +
-           body.bytes();
+    return motion.bytes() + mass_volume.bytes() + stress.bytes() + history.bytes() + original.bytes() + contact.bytes() +
+           moved_with.bytes() + id.bytes() + body.bytes();
   }
 
   bool is_padding(std::size_t p) const { return id[p] == padding_id; }
@@ -63,7 +65,8 @@ struct Particles {
     for (int k = 0; k < Dim; ++k) x[k] = motion[p * motion_packs<Dim>][k];
     return x;
   }
-  Vec<Dim> present_position(std::size_t p) const { return position(p) - velocity(p) * lead; }
+  /// At the present time. After a step that nobody was to watch the particle's own velocity stands for the one that moved it.
+  Vec<Dim> present_position(std::size_t p) const { return position(p) - (watched ? moved_with[p] : velocity(p)) * lead; }
   Vec<Dim> velocity(std::size_t p) const {
     Vec<Dim> v;
     for (int k = 0; k < Dim; ++k) v[k] = Dim == 2 ? motion[p][2 + k] : motion[2 * p + 1][k];

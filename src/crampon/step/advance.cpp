@@ -62,10 +62,17 @@ class Phases {
   int threads_;
 };
 
+/// Makes ready to keep what particles move with, where someone will look and positions lead.
+template <int Dim>
+void watch_motion(Particles<Dim>& particles, Watched watched, double lead) {
+  particles.watched = watched == Watched::yes && lead > 0;
+  if (particles.watched) particles.moved_with.resize_discarding(particles.size());
+}
+
 }  // namespace
 
 template <int Dim, class Shape>
-void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
+void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watched) {
   const StressUpdate scheme = model.stress_update;
   const bool stress_first = scheme == StressUpdate::usf || scheme == StressUpdate::usavg;
   const bool stress_last = scheme != StressUpdate::usf;
@@ -84,6 +91,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     start_rigid_motion(state, model, dt);
     if (state.step == 0) choose_carriers<Dim, Shape>(state, model);
     lead_positions<Dim, Shape>(state, model, dt);
+    watch_motion(state.particles, watched, lead);
     evaluate_conditions(state, model, dt);
     evaluate_loads(state.time + lead, model, load_values, body_force, damping);
     particle_damping = model.particle_damping(state.time + lead, {});
@@ -141,7 +149,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt) {
     remember_rigid_conditions(state, model);
   });
   phases.blocks("stress and positions", [&](B b) {  // Tasks 5, 6
-    finish_particles<Dim, Shape>(state, model, b, dt, stress_last ? stress_dt : 0., !transfer.re_extrapolates && rule.is_flip());
+    finish_particles<Dim, Shape>(state, model, b, dt, further, stress_last ? stress_dt : 0., !transfer.re_extrapolates && rule.is_flip());
   });
   phases.serial("move cracks", [&] {  // Task 8
     move_cracks(state, model, dt);
@@ -165,8 +173,8 @@ StiffestVertex find_stiffest_vertex(State<Dim>& state, const Model<Dim>& model) 
   return spread_tractions<Dim, Shape>(state, model);
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                      \
-  template void advance<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double); \
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                               \
+  template void advance<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double, Watched); \
   template StiffestVertex find_stiffest_vertex<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE

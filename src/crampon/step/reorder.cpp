@@ -159,6 +159,7 @@ void move_particles(Particles<Dim>& particles, const Order& order, int threads) 
   move_lanes(particles.history, static_cast<std::size_t>(particles.history_size), order, threads);
   move_records(particles.original, 1, order, threads);
   if (particles.contact.size() > 0) move_records(particles.contact, 1, order, threads);
+  if (particles.watched) move_records(particles.moved_with, 1, order, threads);
   move_records(particles.id, 1, order, threads);
   move_records(particles.body, 1, order, threads);
   particles.packs = order.packs();

@@ -40,6 +40,14 @@ void accelerate(Particles<Dim>& particles, std::size_t p, const MotionRecord<Dim
   q = Dim == 2 ? __builtin_shufflevector(q, moved, 0, 1, 6, 7) : moved;
 }
 
+/// What took a position on by its own velocity is to have taken it by the one that moves it.
+template <int Dim>
+void correct_lead(Particles<Dim>& particles, std::size_t p, const MotionRecord<Dim>& m, double further) {
+  const Vec<Dim> v = particles.velocity(p);
+  Pack& x = particles.motion[p * motion_packs<Dim>];
+  for (int k = 0; k < Dim; ++k) x[k] += further * (m.r[0][k] - v[k]);
+}
+
 }  // namespace
 
 template <int Dim, class Shape>
@@ -84,13 +92,16 @@ void remember_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b)
 }  // namespace
 
 template <int Dim, class Shape>
-void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, double stress_dt, bool with_velocities) {
+void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, double further, double stress_dt,
+                      bool with_velocities) {
   if (!state.blocks.list[b].has_particles()) return;
   Particles<Dim>& particles = state.particles;
   if (particles.contact.size() > 0 && state.nodes.layers[b].sums_contact) remember_contact<Dim, Shape>(state, model, b);
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
   const Advance<Dim> advance(dt, with_velocities ? dt : 0.);
   const PairOffsets<Dim>& offsets = state.nodes.layers[b].offsets;
+  Vec<Dim>* moved_with = particles.watched ? particles.moved_with.data() : nullptr;
+  const bool corrects = further != 0;
   constexpr int position_pack = 0, width = motion_packs<Dim>;
   Pack low = splat(1e300), high = splat(-1e300), fastest = splat(0.), check = splat(0.);
   const auto move = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
@@ -99,6 +110,10 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
       const std::size_t p = std::size_t{pack} * lanes + l;
       const MotionRecord<Dim> m = interpolate<Dim, Shape>(stencil, targets, l, motion, offsets.motion);
       advance.apply(particles, p, m);
+      if (moved_with) {
+        for (int k = 0; k < Dim; ++k) moved_with[p][k] = m.r[0][k];
+      }
+      if (corrects) correct_lead(particles, p, m, further);
       const Pack x = particles.motion[p * width + position_pack];
       lowest = lane_min(lowest, x);
       highest = lane_max(highest, x);
@@ -133,7 +148,7 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                         \
   template void update_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double); \
-  template void finish_particles<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, bool);
+  template void finish_particles<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, double, bool);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 
