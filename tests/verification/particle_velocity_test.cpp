@@ -114,7 +114,7 @@ std::string method(const Way& c) {
 }
 
 /// A free disk that breathes and flies keeps its momentum to round-off, gains no energy, and what it loses is told. The balance closes within
-/// .5 % of the energy of the breathing with USAVG; stress of the others is half a step older or newer than the velocities, so that their
+/// 1 % of the energy of the breathing with USAVG; stress of the others is half a step older or newer than the velocities, so that their
 /// energy swings by half a step's work, 7 % here. USL with FLIP loses short waves unbooked, with or without a part of PIC, and is left out.
 TEST_P(Transfer, KeepsMomentumAndTellsWhatItLoses) {
   const auto simulation =
@@ -132,7 +132,7 @@ TEST_P(Transfer, KeepsMomentumAndTellsWhatItLoses) {
   EXPECT_NEAR(value(*simulation, "momentum_x"), px, 1e-12 * px);
   EXPECT_NEAR(value(*simulation, "momentum_y"), py, 1e-12 * px);
   EXPECT_LT(most, start + (in_step ? 0.001 : 0.08) * breathing_energy);
-  EXPECT_LT(open, (in_step ? 0.005 : 0.08) * breathing_energy);
+  EXPECT_LT(open, (in_step ? 0.01 : 0.08) * breathing_energy);
   EXPECT_GE(value(*simulation, "transfer_loss"), 0.01 * breathing_energy);
 }
 

@@ -87,6 +87,13 @@ std::vector<Column> columns() {
 }
 INSTANTIATE_TEST_SUITE_P(Rest, ColumnUnderItsWeight, testing::ValuesIn(columns()));
 
+/// Damping of nodes alone leaves them: what the others are there for.
+TEST(DampingOfNodes, LeavesShortWaves) {
+  const auto simulation = make(column({2, "bspline", "damping = 100", 0}, 0.6));
+  run(*simulation);
+  EXPECT_GT(std::sqrt(2 * value(*simulation, "kinetic_energy") / 300), 1e-3);  // m/s
+}
+
 /// The run ends by itself, long before its end, and says so.
 TEST(StopAtRest, EndsWhenNothingMoves) {
   for (const int dimension : {2, 3}) {
