@@ -56,9 +56,11 @@ TEST(Series, IsThatOfTheMatrices) {
       const PointFrame before = simulation->particles({"velocity", "mass"});
       const Numbers v = field(before, "velocity").values, mass = field(before, "mass").values;
       const std::size_t count = mass.size();
+      const double lead = 0.5 * simulation->size().time_step;
       const auto weight = [&](std::size_t p, int i, int j) {
         const auto hat = [&](double x, int n) { return std::fmax(0., 1 - std::fabs((x - (-0.8 + n * h)) / h)); };
-        return hat(before.positions[3 * p], i) * hat(before.positions[3 * p + 1], j);
+        // Nodes see particles where they are in the middle of the step.
+        return hat(before.positions[3 * p] + lead * v[3 * p], i) * hat(before.positions[3 * p + 1] + lead * v[3 * p + 1], j);
       };
       constexpr int side = 17, nodes = side * side;
       std::vector<double> S(count * nodes), m(nodes, 0.);
