@@ -119,12 +119,18 @@ class Layer {
 
 constexpr std::uint32_t nothing = 0xffffff;
 
-// Which particle each pixel shows, as an index into the scene's shapes; `nothing` where none.
+// How far particles are grown, px: by the first neighbours leave no seam; the second is their outline, a whole number of layer pixels wider,
+// which gives it one width.
+constexpr double closing = 0.3, outlining = 1.8;
+
+// Which particle each pixel shows, as an index into the scene's shapes; `nothing` where none, nor an outline.
 std::vector<std::uint32_t> shown_particles(const Scene& scene, const PictureMap::Panel& panel) {
   Layer numbers(panel);  // white: nothing
-  for (std::size_t k = 0; k < std::min<std::size_t>(scene.shapes.size(), nothing); ++k) {
-    numbers.canvas().set_colour({(k >> 16U & 255U) / 255., (k >> 8U & 255U) / 255., (k & 255U) / 255.});
-    numbers.fill(scene.shapes[k], 0.3);
+  for (const double grown : {outlining, closing}) {
+    for (std::size_t k = 0; k < std::min<std::size_t>(scene.shapes.size(), nothing); ++k) {
+      numbers.canvas().set_colour({(k >> 16U & 255U) / 255., (k >> 8U & 255U) / 255., (k & 255U) / 255.});
+      numbers.fill(scene.shapes[k], grown);
+    }
   }
   std::vector<std::uint32_t> shown = numbers.pixels();
   for (std::uint32_t& k : shown) k &= 0xffffffU;
@@ -183,10 +189,10 @@ void paint_bodies(Canvas& canvas, const Scene& scene, const PictureMap& map, con
     layer.fill_hatched(sections.back(), categories.of_rigid(*rigid.shape), apart);
   }
   layer.canvas().set_colour(outline);
-  for (const ParticleShape& s : scene.shapes) layer.fill(s, 1.8);  // whole layer pixels more than below: a line of one width
+  for (const ParticleShape& s : scene.shapes) layer.fill(s, outlining);
   for (const ParticleShape& s : scene.shapes) {
     layer.canvas().set_colour(colour_of(scene.values[s.index]));
-    layer.fill(s, 0.3);  // neighbours leave no seam
+    layer.fill(s, closing);
   }
   const bool solids = std::any_of(scene.rigid.begin(), scene.rigid.end(), [](const Scene::Rigid& r) { return !r.view.is_section(); });
   if (solids || has_several_bodies(scene)) {

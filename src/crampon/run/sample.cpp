@@ -206,7 +206,7 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
   frame.dimension = Dim;
   frame.body_names = model.bodies;
   for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b)
-    frame.rigid.push_back(rigid_place(model.rigid_bodies[b], state.rigid[b].start));
+    frame.rigid.push_back(rigid_place(model.rigid_bodies[b], state.rigid[b].present));
   for (int k = 0; k < Dim; ++k) frame.cell = std::fmax(frame.cell, model.grid.cell[k]);
   frame.positions = numbers(3);
   const auto size_of = [&](const Material<Dim>& m) {
