@@ -117,7 +117,7 @@ std::string method(const Way& c) {
 
 /// A free disk that breathes and flies keeps its momentum to round-off, gains no energy, and what it loses is told. The balance closes within
 /// 1 % of the energy of the breathing with USAVG; stress of the others is half a step older or newer than the velocities, so that their
-/// energy swings by half a step's work, 7 % here. USL with FLIP loses short waves unbooked, with or without a part of PIC, and is left out.
+/// energy swings by half a step's work, 8 % here. USL with FLIP loses short waves unbooked, with or without a part of PIC, and is left out.
 TEST_P(Transfer, KeepsMomentumAndTellsWhatItLoses) {
   const auto simulation =
       make(input(method(GetParam()),
