@@ -130,43 +130,40 @@ velocity = [1, 0.5{}]
     for (std::size_t p = 0; p < u.size() / 3; ++p) off.back() = std::fmax(off.back(), std::hypot(u[3 * p] - t, u[3 * p + 1] - expected));
   }
   EXPECT_LT(off[0], 2e-5) << "m; of a path of 20 cm";
-  for (int i : {0, 1}) EXPECT_GT(off[i] / off[i + 1], 3.5) << "4, but for where steps are cut";
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) EXPECT_GT(off[i] / off[i + 1], 3.5) << "4, but for where steps are cut";
 }
 
-/// A disk (a sphere) spins by two radians. Positions of all particles at three time steps. Not linear functions, whose forces jump where
-/// particles cross cell lines, nor USL, which with light nodes is rough at any time step.
+/// A disk spins by two radians, at two time steps. All particles must be where they are at half the step but for a thousandth of a cell: taken
+/// back by the velocity with which they move, they part by .5e-4 to 1.1e-4 m (uGIMP) and .3e-4 to .4e-4 m (B-splines), by their own velocity by
+/// 2.6e-4 to 3.3e-4 m, and by v dt/2 = 9e-4 m as N03 has them. Not linear functions, whose forces jump where particles cross cell lines, nor USL,
+/// which light nodes make rough at any time step.
 class Spin : public testing::TestWithParam<Setting> {};
-TEST_P(Spin, IsOfSecondOrderButForTheEdge) {
+TEST_P(Spin, PutsTheRimWhereItIs) {
   const Setting setting = GetParam();
-  const bool space = std::get<2>(setting) == 3;
-  std::vector<Numbers> u;
-  for (const double step : {8e-4, 4e-4, 2e-4}) {
-    const auto simulation = make(
-        head(setting, 0.1, step) + fmt::format(R"toml(
+  std::string text = R"toml(
+[[material]]
+name = "stiff"
+law = "elastic_large_rotation"
+E = 1e6
+nu = 0.3
+density = 1000
 [[body]]
 name = "disk"
-material = "m"
-shape = {{ kind = "{}", centre = [0.03, 0.02{}], radius = {} }}
-velocity = [{{ expression = "1-20*(y-0.02)" }}, {{ expression = "0.5+20*(x-0.03)" }}{}]
-)toml",
-                                               space ? "sphere" : "disk", space ? ", 0.01" : "", space ? 0.3 : 0.45, space ? ", 0" : ""),
-        {"material.m.E=1e6"});
-    run_cut(*simulation);
-    u.push_back(field(simulation->particles(), "displacement").values);
-  }
-  const auto apart = [](const Numbers& a, const Numbers& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return std::sqrt(3 * sum / static_cast<double>(a.size()));
-  };
-  const double coarse = apart(u[0], u[1]), fine = apart(u[1], u[2]);
-  RecordProperty("apart", fmt::format("{:.2e} {:.2e}", coarse, fine));
-  std::printf("%.3e %.3e ratio %.2f max %.2e %.2e\n", coarse, fine, coarse / fine, difference(u[0], u[1]), difference(u[1], u[2]));
+material = "stiff"
+shape = { kind = "disk", centre = [0.03, 0.02], radius = 0.45 }
+velocity = [{ expression = "1-20*(y-0.02)" }, { expression = "0.5+20*(x-0.03)" }]
+)toml";
+  const auto whole = make(head(setting, 0.1, 4e-4) + text), half = make(head(setting, 0.1, 2e-4) + text);
+  run(*whole);
+  run(*half);
+  const double apart = difference(positions(*whole), positions(*half));
+  RecordProperty("apart", fmt::format("{:.2e}", apart));
+  EXPECT_LT(apart, 1.5e-4) << "m";
 }
 INSTANTIATE_TEST_SUITE_P(All, Spin,
-                         testing::Combine(testing::Values("linear", "gimp", "bspline"), testing::Values("usavg", "musl", "usl", "usf"),
-                                          testing::Values(2, 3)),
+                         testing::Combine(testing::Values("gimp", "bspline"), testing::Values("usavg", "musl", "usf"), testing::Values(2)),
                          name_of);
+
 /// What is kept for those who look is no part of the state.
 TEST(Watching, ChangesNothing) {
   const std::string text = head({"gimp", "usavg", 2}, 0.05, 1e-3) + R"toml(
