@@ -229,7 +229,9 @@ region = {{ kind = "half_plane", point = [{}, 0], normal = [-1, 0] }}
 value = [{{ expression = "{}*min(t/0.05,1)", unit = "N" }}, 0]
 )toml",
                                        cell, shape_functions, stress_update, positions, E, cell, 0.5 - cell / 2, stress_at(stretch) * cell);
-  auto [model, state] = build_model<2>(read_problem_text(text, "test.toml", "."), 1);
+  BuiltModel<2> built = build_model<2>(read_problem_text(text, "test.toml", "."), 1);
+  Model<2>& model = built.model;
+  State<2>& state = built.state;
   const double c = std::sqrt(E / 0.1), dt = courant * cell / (c * std::fmax(stretch, 1.));
   const auto damp = [&](double kappa) { model.damping = ValueFunction::constant(kappa), model.damped = kappa > 0; };
   damp(2000);
