@@ -67,6 +67,16 @@ std::string boundary(const Held& h, const std::string& name, double low, double 
                      h.dim == 3 ? "box" : "rectangle", point(h, low, -wide * cell), point(h, high, (2 + wide) * cell), velocity);
 }
 
+/// Not of a rigid body?
+bool of_bar(const PointFrame& frame, std::size_t particle) { return field(frame, "body").values[particle] == 0; }
+
+/// A rigid body that prescribes its velocity from `low` to `high`.
+std::string rigid_boundary(const Held& h, double low, double high, const std::string& velocity) {
+  const double cell = 1. / h.cells;
+  return fmt::format("[[rigid]]\nname = \"top\"\nrole = \"boundary\"\nshape = {{ kind = \"{}\", low = {}, high = {} }}\n{}\n",
+                     h.dim == 3 ? "box" : "rectangle", point(h, low, -cell), point(h, high, 3 * cell), velocity);
+}
+
 class HeldBar : public testing::TestWithParam<Held> {};
 
 /// u = -rho g/E (L z - z^2/2), z from the held face; the mean over what hangs from it, and over the last quarter of the time.
@@ -81,6 +91,14 @@ TEST_P(HeldBar, HangsFromTheFace) {
   if (h.region == "row of the body's width") held = boundary(h, "top", 1, 1, 0, velocity);
   if (h.region == "all beyond") held = boundary(h, "top", 1, 1 + 2 * cell, 1, velocity);
   if (h.region == "grip") held = boundary(h, "top", 1, 1 + 3 * cell, 1, velocity), top = 1 + 2 * cell;
+  if (h.region == "line")
+    held = fmt::format("[[boundary]]\nname = \"top\"\nregion = {{ kind = \"line\", from = {}, to = {} }}\n{}\n", point(h, 1, -cell),
+                       point(h, 1, 3 * cell), velocity);
+  // The row nearest to the edge of a rigid body holds the face.
+  if (h.region == "rigid") held = rigid_boundary(h, 1, 1 + 3 * cell, "");
+  if (h.region == "rigid with its edge in a cell") held = rigid_boundary(h, 1 - 0.4 * cell, 1 + 2.7 * cell, "");
+  if (h.region == "rigid and thin") held = rigid_boundary(h, 1, 1 + 0.4 * cell, "");
+  if (h.region == "rigid grip") held = rigid_boundary(h, 1, 1 + 3 * cell, ""), top = 1 + 2 * cell;
   std::string weight = "[";
   for (int k = 0; k < h.dim; ++k) weight += fmt::format("{}{}", k > 0 ? ", " : "", k == h.axis ? -g : 0.);
   const auto simulation = make(bar(h, top, 8 * period, fmt::format("damping = {}\nbody_force = {}]", 1.5 * 6.2832 / period, weight), held));
@@ -89,14 +107,14 @@ TEST_P(HeldBar, HangsFromTheFace) {
   int count = 0;
   for (std::size_t p = 0; p < start.positions.size() / 3; ++p) {
     const double z = 1 - start.positions[3 * p + static_cast<std::size_t>(h.axis)];
-    if (z > 0) expected -= rho * g / E * (z - 0.5 * z * z);
+    if (z > 0 && of_bar(start, p)) expected -= rho * g / E * (z - 0.5 * z * z);
   }
   run(*simulation, [&](Simulation& s) {
     if (s.time() < 6 * period || s.steps_done() % 7 != 0) return;
     const PointFrame now = s.particles({"displacement"});
     for (std::size_t p = 0; p < start.positions.size() / 3; ++p) {
       const std::size_t i = 3 * p + static_cast<std::size_t>(h.axis);
-      if (start.positions[i] < 1) sum += field(now, "displacement").values[i];
+      if (start.positions[i] < 1 && of_bar(start, p)) sum += field(now, "displacement").values[i];
     }
     reaction += value(s, fmt::format("reaction_{}.top", "xyz"[h.axis]));
     ++count;
@@ -112,10 +130,12 @@ TEST_P(HeldBar, HangsFromTheFace) {
 std::vector<Held> bars() {
   std::vector<Held> out;
   for (const char* shape : {"linear", "gimp", "bspline"}) {
-    for (const char* region : {"row", "row of the body's width", "all beyond", "grip"}) {
+    for (const char* region : {"row", "row of the body's width", "all beyond", "grip", "rigid", "rigid grip"}) {
       out.push_back({shape, 2, 0, region, 10});
       out.push_back({shape, 2, 1, region, 10});
     }
+    for (const char* region : {"line", "rigid with its edge in a cell", "rigid and thin"}) out.push_back({shape, 2, 1, region, 10});
+    out.push_back({shape, 3, 2, "rigid", 10});
     out.push_back({shape, 2, 1, "row", 20});
     out.push_back({shape, 3, 2, "row of the body's width", 10});
   }
@@ -130,18 +150,23 @@ class HeldFace : public testing::TestWithParam<Held> {};
 TEST_P(HeldFace, ReactionIsTheRateOfMomentum) {
   const Held& h = GetParam();
   const double cell = 1. / h.cells;
+  const std::string top = h.region == "rigid"
+                              ? rigid_boundary(h, 1, 1 + 2 * cell,
+                                               std::string("velocity = [{ expression = \"20*t\" }, { expression = \"3-9*t\" }") +
+                                                   (h.dim == 3 ? ", 2]\nspin = [1, 0, 2]" : "]\nspin = [2]"))
+                              : boundary(h, "top", 1, 1 + 2 * cell, 1,
+                                         h.dim == 3 ? "vx = { expression = \"20*t*x\" }\nvy = { expression = \"3-9*t\" }\nvz = 2"
+                                                    : "vx = { expression = \"20*t*x+y\" }\nvy = { expression = \"3-9*t\" }");
   const std::string more =
-      boundary(h, "top", 1, 1 + 2 * cell, 1,
-               h.dim == 3 ? "vx = { expression = \"20*t*x\" }\nvy = { expression = \"3-9*t\" }\nvz = 2"
-                          : "vx = { expression = \"20*t*x+y\" }\nvy = { expression = \"3-9*t\" }") +
-      boundary(h, "bottom", 0, 0, 1, std::string("vx = 0\nvy = { expression = \"-1+50*t\" }\n") + (h.dim == 3 ? "vz = 0" : "")) +
+      top + boundary(h, "bottom", 0, 0, 1, std::string("vx = 0\nvy = { expression = \"-1+50*t\" }\n") + (h.dim == 3 ? "vz = 0" : "")) +
       "[[load]]\nname = \"push\"\nkind = \"force_each\"\nvalue = " + (h.dim == 3 ? "[3, 2, -1]" : "[3, 2]") + "\n";
   const std::string weight = h.dim == 3 ? "[-20, 30, 10]" : "[-20, 30]";
   const auto simulation = make(bar(h, 1, 0.02, "body_force = " + weight, more));
   const PointFrame start = simulation->particles({"mass"});
   double mass = 0;
-  for (const double m : field(start, "mass").values) mass += m;
-  const auto count = static_cast<double>(start.positions.size() / 3);
+  double count = 0;
+  for (std::size_t p = 0; p < start.positions.size() / 3; ++p)
+    if (of_bar(start, p)) mass += field(start, "mass").values[p], ++count;
   const std::array<double, 3> given{-20 * mass + 3 * count, 30 * mass + 2 * count, 10 * mass - count};
   std::array<double, 3> before{};
   double worst = 0, time = 0, largest = 0;
@@ -167,7 +192,8 @@ TEST_P(HeldFace, ReactionIsTheRateOfMomentum) {
 INSTANTIATE_TEST_SUITE_P(Sweep, HeldFace,
                          testing::Values(Held{"linear", 2, 0, "", 10}, Held{"gimp", 2, 0, "", 10}, Held{"bspline", 2, 0, "", 10},
                                          Held{"gimp", 2, 1, "", 10}, Held{"bspline", 2, 1, "", 10}, Held{"gimp", 3, 2, "", 10},
-                                         Held{"bspline", 3, 2, "", 10}));
+                                         Held{"bspline", 3, 2, "", 10}, Held{"linear", 2, 1, "rigid", 10}, Held{"gimp", 2, 1, "rigid", 10},
+                                         Held{"bspline", 2, 1, "rigid", 10}, Held{"bspline", 3, 2, "rigid", 10}));
 
 class HeldBeam : public testing::TestWithParam<Held> {};
 

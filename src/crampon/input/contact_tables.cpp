@@ -115,7 +115,7 @@ const Declaration<RigidInput>& rigid_declaration() {
           .quantities("spin_centre", &RigidInput::spin_centre, "m", Bounds::any(),
                       "its centre at the start; left out: the centre of its volume", Presence::optional, two_or_three)
           .choice("role", &RigidInput::role, {{"contact", Role::contact}, {"boundary", Role::boundary}},
-                  "whether it meets bodies by a contact law, or gives its velocity to the nodes that its particles reach")
+                  "whether it meets bodies by a contact law, or gives its velocity to the nodes in its shape and within half a cell of it")
           .text("components", &RigidInput::components,
                 "boundary: the components of velocity that it gives, as [\"x\", \"y\"]; left out: all")
           .check([](const RigidInput& in, Diagnostics& diagnostics) {

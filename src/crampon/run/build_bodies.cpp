@@ -144,6 +144,7 @@ class BodyBuilder {
     out_.on_lattice.push_back(true);
     RigidBody<Dim>& body = add_rigid_body(in.name, in.velocity, in.spin, Dim == 2 ? in.thickness : 1., out_.per_cell.back());
     body.prescribes = in.role == RigidInput::Role::boundary;
+    if (body.prescribes) body.shape = in.shape;
     const std::size_t first = out_.particles.size();
     const auto material = add_material(std::make_shared<RigidMaterial>(), as_body, out_.per_cell.back(), body.field);
     fill(as_body, out_.names.size(), material);

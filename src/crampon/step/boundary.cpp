@@ -24,6 +24,31 @@ bool is_overruled(const std::vector<FixedComponent>& fixed, std::size_t i) {
   return false;
 }
 
+/// Of a point from the shape of a rigid body, m.
+template <int Dim>
+double distance_from(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x) {
+  const Vec<Dim> arm = x - pose.centre;
+  Vec<3> there;
+  for (std::size_t j = 0; j < Dim; ++j) {
+    there[j] = body.centre[j];
+    for (std::size_t k = 0; k < Dim; ++k) there[j] += pose.turn[k][j] * arm[k];
+  }
+  return body.shape->distance(there);
+}
+
+template <int Dim>
+Vec<Dim> middle_of_block(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  const auto& block = state.blocks.list[b];
+  return 0.5 * (model.grid.node_position(block.node(0)) + model.grid.node_position(block.node(block_nodes<Dim> - 1)));
+}
+
+template <int Dim>
+double half_diagonal_of_block(const Grid<Dim>& grid) {
+  Vec<Dim> side;
+  for (std::size_t k = 0; k < Dim; ++k) side[k] = block_side * grid.cell[k];
+  return 0.5 * norm(side);
+}
+
 /// f(component, slot index into nodal arrays, index into p_int) for the active fixed components of a block, in all its layers.
 template <int Dim, class F>
 void for_fixed(State<Dim>& state, const Model<Dim>& model, std::size_t b, F f) {
@@ -101,24 +126,25 @@ void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t 
   auto& fixed = state.scratch[b].fixed;
   const auto by_rigid = [&](const FixedComponent& f) { return model.conditions[f.condition].rigid_body >= 0; };
   fixed.erase(std::remove_if(fixed.begin(), fixed.end(), by_rigid), fixed.end());
-  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  const double reach = prescribing_reach(model.grid);
   bool added = false;
-  for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    const MaterialField& field = model.fields[layers.node[l].field];
-    if (!field.rigid || !model.rigid_bodies[static_cast<std::size_t>(field.body)].prescribes) continue;
-    const RigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(field.body)];
-    const std::uint16_t condition = model.rigid_bodies[static_cast<std::size_t>(field.body)].condition;
+  for (std::size_t r = 0; r < model.rigid_bodies.size(); ++r) {
+    const RigidBody<Dim>& body = model.rigid_bodies[r];
+    if (!body.prescribes) continue;
+    const RigidMotion<Dim>& motion = state.rigid[r];
+    if (distance_from(body, motion.start, middle_of_block(state, model, b)) > reach + half_diagonal_of_block(model.grid)) continue;
     for (int node = 0; node < block_nodes<Dim>; ++node) {
-      if (!(state.nodes.momentum[layers.slot(l, node)][Dim] > 0)) continue;
       const IndexVector<Dim> index = state.blocks.list[b].node(node);
       const Vec<Dim> x = model.grid.node_position(index);
+      if (!(distance_from(body, motion.start, x) <= reach)) continue;
       const Vec<Dim> v_old = motion.start.velocity_at(x), v_new = motion.end.velocity_at(x);
-      for (std::size_t q = 0; q < model.conditions[condition].components.size(); ++q) {
-        const int axis = model.conditions[condition].components[q].axis;
+      const auto& components = model.conditions[body.condition].components;
+      for (std::size_t q = 0; q < components.size(); ++q) {
+        const int axis = components[q].axis;
         FixedComponent f;
         f.node = static_cast<std::uint16_t>(node);
         f.axis = static_cast<std::uint8_t>(axis);
-        f.condition = condition;
+        f.condition = body.condition;
         f.component = static_cast<std::uint16_t>(q);
         f.active = true;
         f.fresh = !std::binary_search(state.prescribed_by_rigid.begin(), state.prescribed_by_rigid.end(),

@@ -22,7 +22,14 @@ inline void sort_by_component(std::vector<FixedComponent>& fixed) {
   });
 }
 
-/// After Task 1: the own nodes that prescribing rigid bodies reach now, and the velocities of the bodies there.
+/// Distance, m, from the shape of a prescribing rigid body within which nodes take its velocity: its faces are held at the row of nodes that
+/// is nearest to them.
+template <int Dim>
+double prescribing_reach(const Grid<Dim>& grid) {
+  return (0.5 + 1e-9) * grid.smallest_cell();
+}
+
+/// The nodes of a block that are in the shapes of prescribing rigid bodies at the start of the step, and the velocities of the bodies there.
 template <int Dim>
 void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t block);
 

@@ -7,12 +7,12 @@ namespace crampon {
 
 namespace {
 
-/// Prescribed in this step, by a condition that a mirror image can follow: not by a symmetry plane, which folds by itself, nor by a rigid
-/// body, whose nodes are found later; and not for the first time, while the body still has a velocity of its own there.
+/// Prescribed in this step, by a condition that a mirror image can follow: not by a symmetry plane, which folds by itself; and not for the
+/// first time, while the body still has a velocity of its own there.
 template <int Dim>
 bool holds(const Model<Dim>& model, const FixedComponent& c) {
   const VelocityCondition<Dim>& condition = model.conditions[c.condition];
-  if (!c.active || condition.symmetry || condition.rigid_body >= 0) return false;
+  if (!c.active || condition.symmetry) return false;
   return !(c.fresh && model.fixed_force == FixedForce::incremental);
 }
 

@@ -54,7 +54,8 @@ struct RigidBody {
   Vec<Dim> centre;                      ///< at the start, m
   std::optional<Wall<Dim>> wall;        ///< it is this, and has no particles
   std::uint16_t field = 0;              ///< its velocity field
-  bool prescribes = false;              ///< gives its velocity to the nodes that it reaches, instead of meeting what is there
+  bool prescribes = false;              ///< gives its velocity to the nodes in its shape, instead of meeting what is there
+  ShapePtr shape;                       ///< ... as it was at the start; of these alone
   std::uint16_t condition = 0;          ///< ... as this condition, whose components say which
 };
 

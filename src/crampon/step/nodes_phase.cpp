@@ -110,7 +110,6 @@ void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_
     assemble_contact_sums<Dim, Shape>(state, b);
     find_contacts<Dim, Shape>(state, model, b);
   }
-  if (!model.rigid_bodies.empty()) prescribe_by_rigid(state, model, b);
   impose_symmetry(state, model, b);
   if (model.boundary_order == BoundaryOrder::contact_first) {
     adjust_contact(state, model, b, ContactTask::two, dt);  // N13 sec. 2.3

@@ -6,6 +6,7 @@
 
 #include "crampon/run/build_bodies.hpp"
 #include "crampon/run/notes/notes.hpp"
+#include "crampon/step/boundary.hpp"
 
 namespace crampon {
 
@@ -90,6 +91,7 @@ HeldNodes<Dim> held_by(const BodySpace<Dim>& rigid, const Start<Dim>& start) {
   VelocityCondition<Dim> at_start;
   for (const auto& p : rigid.particles()) {
     nodes_about(start, p).any([&](const IndexVector<Dim>& node) {
+      if (rigid.distance(start.model.grid.node_position(node)) > prescribing_reach(start.model.grid)) return false;
       at_start.nodes.push_back(start.model.grid.node_number(node));
       return false;
     });
