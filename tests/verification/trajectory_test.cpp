@@ -125,7 +125,8 @@ velocity = [1, 0.5{}]
                          space ? "box" : "rectangle", space ? ", -0.1" : "", space ? ", 0.1" : "", space ? ", 0" : ""));
     run_cut(*simulation);
     const double t = 0.2, expected = 0.5 * t - 10. / 144 * (1 - std::cos(12 * t));
-    const auto& u = field(simulation->particles(), "displacement").values;
+    const PointFrame frame = simulation->particles();
+    const auto& u = field(frame, "displacement").values;
     off.push_back(0);
     for (std::size_t p = 0; p < u.size() / 3; ++p) off.back() = std::fmax(off.back(), std::hypot(u[3 * p] - t, u[3 * p + 1] - expected));
   }
