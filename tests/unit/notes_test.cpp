@@ -230,6 +230,20 @@ TEST(Notes, UnstableMethod) {
   EXPECT_EQ(notes(block + "[method]\nstress_update = \"usl\"\nshape_functions = \"gimp\"\n").size(), 0U);
 }
 
+TEST(Notes, BrakedRotation) {
+  const std::string method = "[method]\nshape_functions = \"gimp\"\ntransfer = ";
+  std::string turning = block;
+  turning.replace(turning.find("[[body]]"), 8, "[[body]]\nspin = [2]");
+  const std::string text = note(turning + method + "{ kind = \"xpic\", order = 2 }\n");
+  EXPECT_NE(
+      text.find(".spin: the body \"block\" turns, and method.transfer brakes rotation (what particles take from nodes has lost a part "
+                "of the spin); use flip without pic where rotation must last"),
+      std::string::npos)
+      << text;
+  EXPECT_EQ(notes(turning + method + "\"flip\"\n").size(), 0U);
+  EXPECT_EQ(notes(block + method + "{ kind = \"fmpm\", order = 2 }\n").size(), 0U);
+}
+
 TEST(Notes, OutputAfterTheEnd) {
   std::string steps = block;
   steps.replace(steps.find("end = 0.01"), 10, "steps = 10\nstep = 1e-3");

@@ -19,6 +19,7 @@ Notes find_notes(Start<Dim> start) {
            note_idle_conditions<Dim>,
            note_far_probes<Dim>,
            note_unstable_method<Dim>,
+           note_braked_rotation<Dim>,
            note_late_output<Dim>,
        })
     note(start, notes);

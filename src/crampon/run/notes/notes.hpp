@@ -56,6 +56,9 @@ void note_far_probes(const Start<Dim>& start, Notes& notes);
 /// Choices of the algorithm that are known to fail.
 template <int Dim>
 void note_unstable_method(const Start<Dim>& start, Notes& notes);
+/// Bodies set spinning where the transfer takes rotation away.
+template <int Dim>
+void note_braked_rotation(const Start<Dim>& start, Notes& notes);
 /// Output and expected numbers after the end of the run.
 template <int Dim>
 void note_late_output(const Start<Dim>& start, Notes& notes);
