@@ -87,7 +87,8 @@ TEST_P(SymmetryReaction, IsTheRateOfMomentum) {
   const PointFrame start = simulation->particles({"mass"});
   double mass = 0;
   for (const double m : field(start, "mass").values) mass += m;
-  const double count = static_cast<double>(start.positions.size() / 3);
+  const std::size_t particles = start.positions.size() / 3;
+  const auto count = static_cast<double>(particles);
   const std::array<double, 3> pushed{-0.5 * count, -0.25 * count, -0.75 * count};
   std::array<double, 3> before{};
   const char axes[] = "xyz";
