@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "run_case.hpp"
@@ -10,21 +11,25 @@
 namespace crampon {
 namespace {
 
-void expect_described(const Simulation& simulation, const std::string& where) {
-  for (const HistoryColumn& column : simulation.history_columns()) {
+void expect_described(const Problem& problem, const std::string& where) {
+  const auto simulation = Simulation::create(problem, 1);
+  for (const HistoryColumn& column : simulation->history_columns()) {
     const ColumnDescription* is = find_description(column.name);
     ASSERT_NE(is, nullptr) << where << ": " << column.name << " is not in describe_history_columns()";
     const std::string& unit = is->unit.empty() ? column.unit : is->unit;
     EXPECT_EQ(unit, column.unit) << where << ": " << column.name;
     EXPECT_FALSE(is->meaning.empty()) << column.name;
+    const bool is_of_probe = std::any_of(problem.probes.begin(), problem.probes.end(),
+                                         [&](const ProbeInput& probe) { return column.name.starts_with(probe.name + "."); });
+    EXPECT_EQ(is->pattern == "PROBE.QUANTITY", is_of_probe) << where << ": " << column.name;
   }
 }
 
 TEST(OutputReference, DescribesEveryHistoryColumn) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(CRAMPON_SOURCE_DIR) / "examples")) {
-    if (entry.path().extension() == ".toml") expect_described(*Simulation::create(read_problem(entry.path().string()), 1), entry.path());
+    if (entry.path().extension() == ".toml") expect_described(read_problem(entry.path().string()), entry.path());
   }
-  expect_described(*test::make(R"(
+  expect_described(read_problem_text(R"(
 [grid]
 origin = [0, 0]
 size = [1, 1]
@@ -59,17 +64,27 @@ at = 0.3
 name = "held"
 vx = 0
 region = { kind = "rectangle", low = [0.7, 0.3], high = [0.7, 0.7] }
+[[load]]
+name = "pull"
+kind = "total_force"
+region = { kind = "rectangle", low = [0.6, 0.3], high = [0.7, 0.7] }
+value = [1, 0]
 [[probe]]
 name = "tip"
 quantity = "stress"
 point = [0.5, 0.5]
-)"),
+[method]
+leaving_particle = "remove"
+)",
+                                     "test.toml", "."),
                    "one of each");
 }
 
 TEST(OutputReference, DescriptionsAreOfTheRightColumn) {
   EXPECT_EQ(find_description("momentum_y")->pattern, "momentum_AXIS");
   EXPECT_EQ(find_description("reaction_x.left edge")->pattern, "reaction_AXIS.NAME");
+  EXPECT_EQ(find_description("load_y.pull")->pattern, "load_AXIS.NAME");
+  EXPECT_EQ(find_description("left_momentum_x")->pattern, "left_momentum_AXIS");
   EXPECT_EQ(find_description("tip.velocity_x")->pattern, "PROBE.QUANTITY");
   EXPECT_EQ(find_description("momentum_w"), nullptr);
   EXPECT_EQ(find_description("energy"), nullptr);

@@ -115,11 +115,11 @@ void expect_sums_over_nodes(unsigned seed, bool together, Pairs pairs) {
       }
     }
   });
-  const Pack no_offsets[1] = {};  // of pairs that no moving face folds
-  scatter<Dim, Shape>(stencil, targets, no_offsets, c.record, records.data());
+  const std::vector<Pack> no_offsets(1);  // of pairs that no moving face folds
+  scatter<Dim, Shape>(stencil, targets, no_offsets.data(), c.record, records.data());
   scatter_force<Dim, Shape>(stencil, targets, c.volume, c.stress, vectors.data());
   Pack L[Dim * Dim];
-  gradient<Dim, Shape>(stencil, targets, no_offsets, c.vectors.data(), L);
+  gradient<Dim, Shape>(stencil, targets, no_offsets.data(), c.vectors.data(), L);
   for (std::size_t i = 0; i < records.size(); ++i) {
     ASSERT_LT(difference(records[i], expected_records[i], 4), round_off);
     ASSERT_LT(difference(vectors[i], expected_vectors[i], Dim), round_off);

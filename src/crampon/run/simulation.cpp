@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "crampon/core/error.hpp"
-#include "crampon/output/quantity.hpp"
 #include "crampon/run/build_model.hpp"
 #include "crampon/run/check_memory.hpp"
+#include "crampon/run/history_sampler.hpp"
 #include "crampon/run/notes/notes.hpp"
 #include "crampon/run/sample.hpp"
 #include "crampon/shape/bspline.hpp"
@@ -18,13 +18,10 @@
 #include "crampon/step/advance.hpp"
 #include "crampon/step/face_loads.hpp"
 #include "crampon/step/ledger.hpp"
-#include "crampon/step/move_cracks.hpp"
 
 namespace crampon {
 
 namespace {
-
-constexpr const char* axis_names[3] = {"x", "y", "z"};
 
 template <int Dim, class Shape>
 class Engine final : public Simulation {
@@ -36,9 +33,7 @@ class Engine final : public Simulation {
     if (time_.end) end_ = *time_.end;
     time_step_ = time_.step ? *time_.step : time_.courant * stable_time_step();
     refuse_endless_run(problem);
-    place_probes(problem);
-    initial_energy_ = energy();
-    cracked_ = std::move(built.cracked);
+    history_.start(problem, std::move(built.cracked));
     for (const Diagnostic& note : find_notes(Start<Dim>{problem, model_, state_, time_step_, end_time()}))
       notes_at_start_.push_back(note.text());
     const StiffestVertex stiffest = find_stiffest_vertex<Dim, Shape>(state_, model_);
@@ -119,125 +114,11 @@ class Engine final : public Simulation {
   CrackFrame cracks() const override { return sample_cracks(state_); }
   PointFrame nodes() const override { return sample_nodes(state_, model_); }
 
-  std::vector<HistoryColumn> history_columns() const override {
-    std::vector<HistoryColumn> c = {{"time", "s"},
-                                    {"kinetic_energy", "J"},
-                                    {"strain_energy", "J"},
-                                    {"total_energy", "J"},
-                                    {"load_work", "J"},
-                                    {"body_force_work", "J"},
-                                    {"boundary_work", "J"},
-                                    {"damping_loss", "J"},
-                                    {"transfer_loss", "J"},
-                                    {"contact_loss", "J"},
-                                    {"friction_loss", "J"},
-                                    {"interface_energy", "J"},
-                                    {"cohesive_energy", "J"},
-                                    {"cohesive_loss_I", "J"},
-                                    {"cohesive_loss_II", "J"},
-                                    {"energy_closure", "J"}};
-    for (int k = 0; k < Dim; ++k) c.push_back({std::string("momentum_") + axis_names[k], "kg m/s"});
-    c.push_back({"angular_momentum_z", "kg m2/s"});
-    if (model_.leaving_particle == LeavingParticle::remove) {
-      c.insert(c.end(), {{"left_mass", "kg"}, {"left_energy", "J"}});
-      for (int k = 0; k < Dim; ++k) c.push_back({std::string("left_momentum_") + axis_names[k], "kg m/s"});
-      c.push_back({"left_angular_momentum_z", "kg m2/s"});
-    }
-    for (const auto& condition : model_.conditions) {
-      for (int k = 0; k < Dim; ++k) c.push_back({std::string("reaction_") + axis_names[k] + "." + condition.name, "N"});
-    }
-    for (const auto& body : model_.rigid_bodies) {
-      if (body.prescribes) continue;  // its condition has the columns
-      for (int k = 0; k < Dim; ++k) c.push_back({std::string("reaction_") + axis_names[k] + "." + body.name, "N"});
-      for (int k = Dim == 2 ? 2 : 0; k < 3; ++k) c.push_back({std::string("torque_") + axis_names[k] + "." + body.name, "N m"});
-    }
-    for (const auto& load : model_.loads) {
-      for (int k = 0; k < Dim; ++k) c.push_back({std::string("load_") + axis_names[k] + "." + load.name, "N"});
-    }
-    for (const auto& crack : state_.cracks.list) {
-      c.push_back({"opening_min." + crack.name, "m"});
-      c.push_back({"opening_max." + crack.name, "m"});
-      c.push_back({"sliding_max." + crack.name, "m"});
-    }
-    for (const Probe& probe : probes_) {
-      const Field f = probed(probe.quantity).field;
-      for (int k = 0; k < f.components; ++k) c.push_back({probe.name + "." + f.name + suffix(f.components, k), f.unit});
-    }
-    return c;
-  }
-
-  std::vector<double> history_row() const override {
-    const auto sums = sum_particles(state_, model_);
-    const EnergyTotals& e = state_.energy;
-    const double total = sums.kinetic + sums.strain;
-    const CohesiveTotals& cohesive = state_.cohesive;
-    const double load_work = e.load_work + cohesive.work_of_pressure;
-    const double held = e.interfaces + cohesive.stored, lost = e.damping + e.transfer_loss + e.contact_loss + e.friction_loss +
-                                                               cohesive.dissipated_normal + cohesive.dissipated_shear;
-    const double left_energy = state_.left.kinetic + state_.left.strain;
-    const double closure = total + held + lost + left_energy - load_work - e.body_work - e.boundary_work - initial_energy_;
-    std::vector<double> row = {state_.time,
-                               sums.kinetic,
-                               sums.strain,
-                               total,
-                               load_work,
-                               e.body_work,
-                               e.boundary_work,
-                               e.damping,
-                               e.transfer_loss,
-                               e.contact_loss,
-                               e.friction_loss,
-                               e.interfaces,
-                               cohesive.stored,
-                               cohesive.dissipated_normal,
-                               cohesive.dissipated_shear,
-                               closure};
-    for (int k = 0; k < Dim; ++k) row.push_back(sums.momentum[k]);
-    row.push_back(sums.angular);
-    if (model_.leaving_particle == LeavingParticle::remove) {
-      row.insert(row.end(), {state_.left.mass, left_energy});
-      for (int k = 0; k < Dim; ++k) row.push_back(state_.left.momentum[k]);
-      row.push_back(state_.left.angular);
-    }
-    for (std::size_t c = 0; c < model_.conditions.size(); ++c) {
-      for (int k = 0; k < Dim; ++k) row.push_back(c < state_.reactions.size() ? state_.reactions[c][k] : 0.);
-    }
-    for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b) {
-      if (model_.rigid_bodies[b].prescribes) continue;
-      const RigidReaction<Dim> r = b < state_.rigid_reactions.size() ? state_.rigid_reactions[b] : RigidReaction<Dim>{};
-      for (int k = 0; k < Dim; ++k) row.push_back(r.force[k]);
-      for (int k = Dim == 2 ? 2 : 0; k < 3; ++k) row.push_back(r.torque[k]);
-    }
-    for (const Vec<Dim>& load : total_loads(state_, model_, state_.time)) row.insert(row.end(), load.c.begin(), load.c.end());
-    if constexpr (Dim == 2) {
-      for (std::size_t c = 0; c < state_.cracks.size(); ++c) add_openings(present_crack(state_, state_.cracks.list[c]), cracked_[c], row);
-    }
-    for (const Probe& probe : probes_) {
-      const auto& [ids, f] = probed(probe.quantity);
-      const auto at = std::lower_bound(ids.begin(), ids.end(), static_cast<double>(probe.particle));
-      for (int k = 0; k < f.components; ++k) {
-        const bool there = at != ids.end() && *at == probe.particle;
-        row.push_back(there ? f.values[static_cast<std::size_t>(at - ids.begin()) * f.components + k]
-                            : std::numeric_limits<double>::quiet_NaN());
-      }
-    }
-    return row;
-  }
-
-  std::vector<HistoryColumn> event_columns() const override {
-    std::vector<HistoryColumn> c = {{"time", "s"}, {"crack", "1"}};
-    for (int k = 0; k < Dim; ++k) c.push_back({axis_names[k], "m"});
-    c.insert(c.end(), {{"G_I", "J/m2"}, {"G_II", "J/m2"}});
-    return c;
-  }
+  std::vector<HistoryColumn> history_columns() const override { return history_.columns(); }
+  std::vector<double> history_row() const override { return history_.row(); }
+  std::vector<HistoryColumn> event_columns() const override { return event_columns_of<Dim>(); }
   std::size_t event_count() const override { return state_.events.size(); }
-  std::vector<double> event_row(std::size_t event) const override {
-    const FailureEvent<Dim>& e = state_.events[event];
-    std::vector<double> row = {e.time, static_cast<double>(e.crack)};
-    for (int k = 0; k < Dim; ++k) row.push_back(e.x[k]);
-    row.insert(row.end(), {e.G_I, e.G_II});
-    return row;
-  }
+  std::vector<double> event_row(std::size_t event) const override { return event_row_of(state_.events[event]); }
 
   std::uint64_t state_hash() const override { return hash_state(state_); }
   std::vector<PhaseTime> phases() const override {
@@ -284,29 +165,6 @@ class Engine final : public Simulation {
       rests_since_ = state_.time;
     }
   }
-  struct Probe {
-    std::string name, quantity;
-    std::uint32_t particle = 0;
-  };
-
-  struct Probed {
-    std::vector<double> ids;
-    Field field;
-  };
-  /// A quantity as the output knows it, or a number made of one ("velocity_x", "von_mises"). Throws std::invalid_argument.
-  Probed probed(const std::string& quantity) const {
-    const std::vector<std::string> known = particle_quantity_names();
-    const auto is_known = [&](const std::string& name) { return std::find(known.begin(), known.end(), name) != known.end(); };
-    if (is_known(quantity)) {
-      PointFrame frame = sample_particles(state_, model_, {quantity});
-      return {frame.fields.front().values.doubles(), std::move(frame.fields.back())};
-    }
-    const std::string field = quantity.substr(0, quantity.rfind('_'));
-    PointFrame frame = sample_particles(state_, model_, is_known(field) ? std::vector{field} : known);
-    Quantity all = evaluate_quantity(frame, quantity);
-    return {frame.fields.front().values.doubles(), {quantity, all.unit, 1, std::move(all.values)}};
-  }
-
   /// A sum of time steps may fall short of the time of a look by round-off.
   bool is_watched(double dt, const NextLook& look) const {
     const double end = state_.time + dt * (1 + 1e-4);
@@ -368,11 +226,6 @@ class Engine final : public Simulation {
     return model_.grid.smallest_cell() / fastest;
   }
 
-  double energy() const {
-    const auto sums = sum_particles(state_, model_);
-    return sums.kinetic + sums.strain;
-  }
-
   std::int64_t active_cells() const {
     std::vector<std::int64_t> blocks;
     for (std::size_t p = 0; p < state_.particles.size(); ++p) {
@@ -388,66 +241,17 @@ class Engine final : public Simulation {
     return (std::unique(blocks.begin(), blocks.end()) - blocks.begin()) * block_nodes<Dim>;
   }
 
-  void place_probes(const Problem& problem) {
-    std::vector<Diagnostic> errors;
-    for (const ProbeInput& in : problem.probes) {
-      try {
-        probed(in.quantity);
-      } catch (const std::invalid_argument& error) {
-        errors.push_back({in.at("quantity"), error.what(), "it is a particle quantity or a component of one", "correct the name"});
-      }
-      double best = std::numeric_limits<double>::infinity();
-      Probe probe{in.name, in.quantity, 0};
-      for (std::size_t p = 0; p < state_.particles.size(); ++p) {
-        if (state_.particles.is_padding(p)) continue;
-        if (!in.body.empty() && model_.bodies[state_.particles.body[p]] != in.body) continue;
-        Vec<Dim> d = state_.particles.position(p);
-        for (int k = 0; k < Dim; ++k) d[k] -= in.point[static_cast<std::size_t>(k)];
-        // Of particles equally near, the one made first.
-        const double distance = norm(d);
-        if (distance < best || (distance == best && state_.particles.id[p] < probe.particle))
-          best = distance, probe.particle = state_.particles.id[p];
-      }
-      probes_.push_back(probe);
-    }
-    if (!errors.empty()) throw InputError(std::move(errors));
-  }
-
-  static std::string suffix(int components, int k) {
-    static constexpr const char* tensor[6] = {"_xx", "_yy", "_zz", "_xy", "_yz", "_xz"};
-    if (components == 3) return std::string("_") + axis_names[k];
-    return components == 6 ? tensor[k] : "";
-  }
-
-  /// Over the vertices with material on both sides but for ends; over all when there are none.
-  void add_openings(const Crack<2>& crack, const std::vector<bool>& cracked, std::vector<double>& row) const {
-    const std::size_t n = crack.plane.size();
-    const auto counts = [&](std::size_t v) { return cracked[v] && (crack.closed || (v > 0 && v + 1 < n)); };
-    bool any = false;
-    for (std::size_t v = 0; v < n; ++v) any = any || counts(v);
-    double low = std::numeric_limits<double>::infinity(), high = -low, slid = 0;
-    for (std::size_t v = 0; v < n; ++v) {
-      if (any && !counts(v)) continue;
-      const CrackOpening o = opening_at(crack, v);
-      low = std::fmin(low, o.opening);
-      high = std::fmax(high, o.opening);
-      slid = std::fmax(slid, std::fabs(o.sliding));
-    }
-    row.insert(row.end(), {low, high, slid});
-  }
-
   TimeInput time_;
   Model<Dim> model_;
   State<Dim> state_;
-  double time_step_ = 0, end_ = 0, initial_energy_ = 0;
+  HistorySampler<Dim> history_{state_, model_};
+  double time_step_ = 0, end_ = 0;
   /// Of the step that waves allow: what traction laws may ask for at least.
   static constexpr double shortest_for_tractions = 1e-3;
-  std::vector<std::vector<bool>> cracked_;  ///< BuiltModel::cracked
   std::vector<std::string> notes_at_start_;
   double next_look_ = 0;                                          ///< for rest, s
   double rests_since_ = std::numeric_limits<double>::infinity();  ///< at every look, s
   bool watches_wave_speed_ = false;
-  std::vector<Probe> probes_;
 };
 
 template <int Dim>

@@ -93,7 +93,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
     lead_positions<Dim, Shape>(state, model, dt);
     watch_motion(state.particles, watched, lead);
     evaluate_conditions(state, model, dt);
-    for (B b = 0; b < state.blocks.size() && !model.rigid_bodies.empty(); ++b) prescribe_by_rigid(state, model, b);
+    if (model.any_prescribing_body()) parallel_for(state.blocks.size(), model.threads, [&](B b) { prescribe_by_rigid(state, model, b); });
     evaluate_loads(state.time + lead, model, load_values, body_force, damping);
     particle_damping = model.particle_damping(state.time + lead, {});
     check_prescribed(state, model, load_values, body_force, damping, particle_damping);

@@ -50,13 +50,13 @@ struct Face {
   GroupSet groups = 0;
   GroupSet company = 0;  ///< all groups of particles at the node, its own too
   Signature cracks;
-  double m = 0;             ///< kg; of rigid bodies the volume
-  double volume = 0;        ///< m3; in 2D m2
-  Vec<Dim> x, X, g;         ///< sums of m (x - x_i), m (X - x_i), V_p G_ip
-  double history = 0;       ///< sum of m c
-  std::uint16_t field = 0;  ///< the one with most volume: its laws hold
-  std::uint16_t lowest_field = 0xffff;
-  std::uint16_t known_as = 0xffff;  ///< field by which contact remembers the face: it stays when parts of a bonded group come and go
+  double m = 0;                         ///< kg; of rigid bodies the volume
+  double volume = 0;                    ///< m3; in 2D m2
+  Vec<Dim> x, X, g;                     ///< sums of m (x - x_i), m (X - x_i), V_p G_ip
+  double history = 0;                   ///< sum of m c
+  std::uint16_t field = 0;              ///< the one with most volume: its laws hold
+  std::uint16_t lowest_field = 0xffff;  ///< of its parts
+  std::uint16_t known_as = 0xffff;      ///< field by which contact remembers the face: it stays when parts of a bonded group come and go
   double field_volume = -1;
   bool rigid = false;
   bool whole = false;  ///< meets faces on all sides of cracks

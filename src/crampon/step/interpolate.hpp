@@ -1,4 +1,6 @@
 #pragma once
+/// What particles read from nodes (N03 Eq. 30).
+
 #include "crampon/step/packs.hpp"
 
 namespace crampon {

@@ -139,6 +139,9 @@ struct Model {
   int threads = 1;
 
   StepTransfer transfer_in(std::int64_t step) const { return step_transfer(transfer, stress_update, positions, step); }
+  bool any_prescribing_body() const {
+    return std::any_of(rigid_bodies.begin(), rigid_bodies.end(), [](const RigidBody<Dim>& body) { return body.prescribes; });
+  }
   bool any_body_force() const { return !body_force.empty(); }
   bool any_tractions() const {
     return std::any_of(tractions.begin(), tractions.end(), [](const CrackTraction& t) { return t.acts(); });
