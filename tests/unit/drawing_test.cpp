@@ -29,7 +29,8 @@ PointFrame lattice(std::array<double, 2> corner, int columns, int rows, double s
   f.fields = {{"id", "1", 1, {}}, {"body", "1", 1, {}}, {"signal", "Pa", 1, {}}};
   const int count = columns * rows;
   for (int i = 0; i < count; ++i) {
-    for (const double x : {corner[0] + (i % columns + 0.5) * size, corner[1] + (i / columns + 0.5) * size, 0.}) f.positions.push_back(x);
+    const int column = i % columns, row = i / columns;
+    for (const double x : {corner[0] + (column + 0.5) * size, corner[1] + (row + 0.5) * size, 0.}) f.positions.push_back(x);
     for (int k = 0; k < 3; ++k) f.particle_size.push_back(size);
     f.fields[0].values.push_back(i);
     f.fields[1].values.push_back(0);
@@ -199,8 +200,10 @@ TEST_F(Output, CategoriesHaveALegendWithNames) {
 
 TEST_F(Output, LegendsOfManyAndLongNamesFit) {
   PointFrame frame = lattice({0, 0}, 1, 1, 1, 0, 1);
-  for (int b = 1; b < 60; ++b)
-    add(frame, lattice({b % 8 * 1., b / 8 * 1.}, 1, 1, 1, 0, 1), b, fmt::format("a grain with a name that says a lot, number {}", b));
+  for (int b = 1; b < 60; ++b) {
+    const int column = b % 8, row = b / 8;
+    add(frame, lattice({1. * column, 1. * row}, 1, 1, 1, 0, 1), b, fmt::format("a grain with a name that says a lot, number {}", b));
+  }
   for (const int width : {200, 1200}) {
     const PictureMap map = draw_frame({&frame}, {.quantity = "body", .width = width, .max_height = 500}, folder / "b.png");
     EXPECT_EQ(map.legend.size(), 60u);
@@ -237,7 +240,7 @@ TEST_F(Output, TouchingBodiesHaveAnOutline) {
   }
 }
 
-RigidShape tool_of(ShapePtr shape, int body) {
+RigidShape tool_of(const ShapePtr& shape, int body) {
   RigidShape tool{"tool", body, shape};
   const Bounds3 box = shape->bounds();
   if (std::isfinite(box.low[0] + box.high[0])) tool.surface = box;

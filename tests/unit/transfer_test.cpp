@@ -115,7 +115,7 @@ void expect_sums_over_nodes(unsigned seed, bool together, Pairs pairs) {
       }
     }
   });
-  const std::vector<Pack> no_offsets(1);  // of pairs that no moving face folds
+  const std::vector<Pack> no_offsets(2);  // [0]: of pairs that no moving face folds; without a [1] the compiler warns
   scatter<Dim, Shape>(stencil, targets, no_offsets.data(), c.record, records.data());
   scatter_force<Dim, Shape>(stencil, targets, c.volume, c.stress, vectors.data());
   Pack L[Dim * Dim];

@@ -371,8 +371,9 @@ TEST(FollowerPressure, IsPerAreaAsItIs) {
     run(*simulation);
     const PointFrame frame = simulation->particles();
     double mean = 0;
-    for (std::size_t i = 0; i < frame.positions.size() / 3; ++i) mean += field(frame, "stress").values[6 * i];
-    mean /= static_cast<double>(frame.positions.size() / 3);
+    const std::size_t particles = frame.positions.size() / 3;
+    for (std::size_t i = 0; i < particles; ++i) mean += field(frame, "stress").values[6 * i];
+    mean /= static_cast<double>(particles);
     EXPECT_NEAR(mean, 1e4, 0.01 * 1e4) << shape;  // .2 % measured; forces per area at the start would be 10 % off
   }
 }
