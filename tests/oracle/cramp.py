@@ -11,7 +11,7 @@ import contact as ct
 from crack_motion import carry_cracks, choose_carriers, extend, move_cracks
 from crossing import crosses_crack, segment_normal, segments_met
 from parts import Crack, Grid, Particle, Symmetry, function
-from shapes import shape_2d
+from shapes import cpdi_2d, shape_2d
 
 
 class Model:
@@ -35,6 +35,8 @@ class Model:
                              "volume_contact": 1.1, "require_approach": True, "reference_volume": "cell", "mass_screen": 1e-6}, **case.get("contact", {}))
         self.particles = [Particle(row, body, case["materials"][body["material"]], analysis)
                           for body in case["bodies"] for row in body["particles"]]
+        for p in self.particles:
+            p.edges = [[self.half_size, 0.0], [0.0, self.half_size]]  # of its domain, in cells, where it stretches
         self.cracks = [Crack(i, c) for i, c in enumerate(case.get("cracks", []))]
         self.joined = frozenset(c.index for c in self.cracks if c.law == "bonded" and self.contact["pairs"] == "joint")
         self.symmetries = [Symmetry(s, self.grid) for s in case.get("symmetries", [])]
@@ -98,6 +100,8 @@ class Model:
             self.update_stress(dt + further)
         elif self.update == "usavg":
             self.update_stress(dt / 2)
+        if self.shape == "cpdi":
+            self.stretch_domains(dt + further)
         self.store_contact_state()
         for p, x in zip(self.particles, moved):
             p.moved_with = [(x[k] - p.x[k]) / dt for k in range(2)]
@@ -187,7 +191,11 @@ class Model:
         self.held_faces = {}
         for p in self.particles:
             p.pairs = []
-            for node, S, G in shape_2d(self.shape, p.x[0], p.x[1], self.grid, self.half_size):
+            if self.shape == "cpdi":
+                pairs = cpdi_2d(p.x[0], p.x[1], self.grid, p.edges)
+            else:
+                pairs = shape_2d(self.shape, p.x[0], p.x[1], self.grid, self.half_size)
+            for node, S, G in pairs:
                 target, R, planes = self.fold(p.x, node)
                 folded = self.fold_at_held_faces(p.x, target, R, planes)
                 # the image of a crack is known behind a symmetry plane only: else the line goes to the mirror node
@@ -464,15 +472,26 @@ class Model:
                     self.p[key][k] += R[k] * p.mass * (p.v[k] - offset[1][k]) * S
         self.zero_on_planes(self.p)
 
-    def update_stress(self, dt, end=True):
-        """N03 Eqs. 34-36: L = sum v (x) G with the velocities of the fields the particle belongs to, those of the end of the step or not."""
+    def gradient(self, p, end):
+        """N03 Eq. 36: L = sum v (x) G with the velocities of the fields the particle belongs to, those of the end of the step or not."""
+        L = [[0.0, 0.0], [0.0, 0.0]]
+        for key, S, G, R, _, offset in p.pairs:
+            for i in range(2):
+                v = R[i] * self.p[key][i] / self.m[key] + offset[1 if end else 0][i]
+                for j in range(2):
+                    L[i][j] += v * G[j]
+        return L
+
+    def stretch_domains(self, dt):
+        """Corners of domains move with the nodes, as positions do."""
         for p in self.particles:
-            L = [[0.0, 0.0], [0.0, 0.0]]
-            for key, S, G, R, _, offset in p.pairs:
-                for i in range(2):
-                    v = R[i] * self.p[key][i] / self.m[key] + offset[1 if end else 0][i]
-                    for j in range(2):
-                        L[i][j] += v * G[j]
+            L = self.gradient(p, True)
+            p.edges = [[e[i] + dt * (L[i][0] * e[0] + L[i][1] * e[1]) for i in range(2)] for e in p.edges]
+
+    def update_stress(self, dt, end=True):
+        """N03 Eqs. 34, 35."""
+        for p in self.particles:
+            L = self.gradient(p, end)
             if p.material.follows_deformation and self.positions == "strain":
                 # Taken at the start of the particle's path (USL, MUSL) or at its end (USF); I + A + A^2/2 of the laws is right in its middle.
                 ahead = {"usl": dt / 2, "musl": dt / 2, "usf": -dt / 2, "usavg": 0.0}[self.update]

@@ -135,7 +135,18 @@ def position_cases():
                loads=PRESS, cracks=[{"points": cases.SLANTED, "law": "coulomb", "friction": 0.3}])
 
 
+def domain_cases():
+    """Domains that stretch and turn: on bodies that are cut, hang on a face, meet a mirror."""
+    rubber = cases.material("neo_hookean")
+    def pull(x, y):
+        return 1.2 * (x - 6) - 1.8 * (y - 7), 1.8 * (x - 6) - 0.6 * (y - 7)
+    for update in ("usavg", "musl", "usf", "usl"):
+        yield base("domains_%s" % update, block((3, 4), (9, 10), pull, shift=(0.03, -0.02)), stress_update=update, shape="cpdi", materials=rubber,
+                   loads=PRESS, cracks=[{"points": cases.SLANTED, "law": "coulomb", "friction": 0.3}])
+    yield base("domains_at_mirror", block((3, 4), (9, 10), pull), shape="cpdi", materials=rubber, symmetries=[{"axis": 0, "at": 3 * H, "side": 1}])
+
+
 def all_cases():
     families = (sequential_cases, joint_cases, meeting_plane_cases, gravity_cases, conditions_cases, crack_at_wall_cases,
-                volume_option_cases, vertex_cases, position_cases)
+                volume_option_cases, vertex_cases, position_cases, domain_cases)
     return cases.all_cases() + [case for family in families for case in family()]

@@ -67,6 +67,29 @@ def shape_2d(kind, x, y, grid, half_size):
     return [((i, j), sx * sy, (gx * sy, sx * gy)) for j, sy, gy in along_y for i, sx, gx in along_x]
 
 
+def cpdi_2d(x, y, grid, edges):
+    """The same for a domain with the half edges edges[0] and edges[1] in cells: S is the mean of the linear functions at its corners, G the gradient
+    of what is linear in it and has their values there. Extents of more than half a cell to either side count as half a cell.
+    """
+    longest = [abs(edges[0][k]) + abs(edges[1][k]) for k in range(2)]
+    a, b = ([e[k] * 0.5 / max(0.5, longest[k]) for k in range(2)] for e in edges)
+    area = a[0] * b[1] - a[1] * b[0]
+    along_a, along_b = (b[1] / area, -b[0] / area), (-a[1] / area, a[0] / area)  # along_a.a = 1, along_a.b = 0 and so on
+    sums = {}
+    for s in (-1, 1):
+        for t in (-1, 1):
+            place = [(x - grid.x0) / grid.h + s * a[0] + t * b[0], (y - grid.y0) / grid.h + s * a[1] + t * b[1]]
+            place = [round(q) if abs(q - round(q)) < 1e-12 else q for q in place]  # no mass that is none
+            for i in (math.floor(place[0]), math.floor(place[0]) + 1):
+                for j in (math.floor(place[1]), math.floor(place[1]) + 1):
+                    N = (1 - abs(place[0] - i)) * (1 - abs(place[1] - j))
+                    of = sums.setdefault((i, j), [0.0, 0.0, 0.0])
+                    of[0] += N / 4
+                    for k in range(2):
+                        of[1 + k] += N * (s * along_a[k] + t * along_b[k]) / (4 * grid.h)
+    return [(node, S, (gx, gy)) for node, (S, gx, gy) in sums.items() if S > 0]
+
+
 def point_2d(x, grid):
     """[((i, j), S)] of a point without a size, a crack vertex: linear, and exactly on a grid line only the nodes of that line."""
     one = []

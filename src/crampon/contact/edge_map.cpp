@@ -19,6 +19,15 @@ class Profile {
     scale_ /= 2 * half_width;
     if (++boxes_ > 1) scale_ /= boxes_ - 1;
   }
+  /// Another number, w or -w.
+  void add_pair(double w) {
+    const std::size_t before = ends_.size();
+    for (std::size_t i = 0; i < before; ++i) {
+      ends_.push_back({ends_[i].t - w, ends_[i].sign});
+      ends_[i].t += w;
+    }
+    scale_ /= 2;
+  }
   double reach() const { return ends_.front().t; }
   /// Folded boxes are a sum of truncated powers.
   double at(double t) const {
@@ -68,9 +77,10 @@ PlaneInCells plane_in_cells(const Vec<Dim>& cell, const Vec<Dim>& n) {
   return plane;
 }
 
-EdgeMap EdgeMap::linear(HalfSizes half_sizes, Packing packing) { return make({2, 0}, half_sizes, packing); }
-EdgeMap EdgeMap::gimp(HalfSizes half_sizes, Packing packing) { return make({2, 1}, half_sizes, packing); }
-EdgeMap EdgeMap::bspline(HalfSizes half_sizes, Packing packing) { return make({3, 0}, half_sizes, packing); }
+EdgeMap EdgeMap::linear(HalfSizes half_sizes, Packing packing) { return make({2, 0, 0}, half_sizes, packing); }
+EdgeMap EdgeMap::gimp(HalfSizes half_sizes, Packing packing) { return make({2, 1, 0}, half_sizes, packing); }
+EdgeMap EdgeMap::cpdi(HalfSizes half_sizes, Packing packing) { return make({2, 0, 1}, half_sizes, packing); }
+EdgeMap EdgeMap::bspline(HalfSizes half_sizes, Packing packing) { return make({3, 0, 0}, half_sizes, packing); }
 
 EdgeMap EdgeMap::make(Boxes boxes, HalfSizes half_sizes, Packing packing) {
   constexpr double along[] = {1};
@@ -95,6 +105,7 @@ EdgeMap::Table EdgeMap::tabulate(Boxes boxes, std::span<const double> direction,
       area.add(m / 2);
     }
     for (int i = 0; i < boxes.particle; ++i) seen.add(m * half_size);
+    for (int i = 0; i < boxes.ends; ++i) seen.add_pair(m * half_size);
   }
   const double l = packing == Packing::layers ? half_size : continuous_half_size;
   // The node sees an edge that is at least half a layer within reach. Edges between layers of undisturbed rows are on the steps.

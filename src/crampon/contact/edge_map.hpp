@@ -38,6 +38,7 @@ class EdgeMap {
   using HalfSizes = std::span<const double>;
   static EdgeMap linear(HalfSizes half_sizes, Packing packing = Packing::layers);
   static EdgeMap gimp(HalfSizes half_sizes, Packing packing = Packing::layers);
+  static EdgeMap cpdi(HalfSizes half_sizes, Packing packing = Packing::layers);
   static EdgeMap bspline(HalfSizes half_sizes, Packing packing = Packing::layers);
 
   /// Knows no shape function: takes the mean position for the edge, and every area for zero.
@@ -52,10 +53,11 @@ class EdgeMap {
   double volume_at(double d, const PlaneInCells& plane = {}) const;
 
  private:
-  /// What shape functions are: boxes of one cell's width, folded with each other, and with one of the particle's.
+  /// What shape functions are: boxes of one cell's width, folded with each other, and with one of the particle's or with its two ends.
   struct Boxes {
     int cell = 0;
     int particle = 0;
+    int ends = 0;
   };
   /// Columns over equal steps of d.
   struct Table {

@@ -33,7 +33,7 @@ class ProblemChecker {
       check_damping("damping", problem_.method.damping);
       check_damping("particle_damping", problem_.method.particle_damping);
     }
-    if (!broken("method")) check_transfer();
+    if (!broken("method")) check_transfer(), check_domains();
     for (const BodyInput& body : problem_.bodies) check_body(body);
     for (const RigidInput& rigid : problem_.rigids) check_rigid(rigid);
     for (const WallInput& wall : problem_.walls) check_wall(wall);
@@ -133,6 +133,14 @@ class ProblemChecker {
     if (method.positions == PositionUpdate::n03)
       add(method, "positions", "positions by N03 Eq. 30 with a series for velocities",
           "Eq. 30 moves particles with a velocity that does not strain them", "leave positions out, or use transfer = \"flip\"");
+  }
+
+  /// Domains go with the nodes, and so must their particles.
+  void check_domains() {
+    const MethodInput& method = problem_.method;
+    if (method.shape_functions == ShapeFunctionKind::cpdi && method.positions == PositionUpdate::n03)
+      add(method, "positions", "positions by N03 Eq. 30 with domains that stretch",
+          "Eq. 30 moves particles with a velocity that does not strain them", "leave positions out, or use shape_functions = \"gimp\"");
   }
 
   // At a thousand times, when it varies; what falls between them stops the run (step/guard.cpp).

@@ -65,8 +65,11 @@ const Declaration<MethodInput>& method_declaration() {
           .choice("positions", &MethodInput::positions, {{"strain", PositionUpdate::strain}, {"n03", PositionUpdate::n03}},
                   "particles move with the velocity that strains them, or with that of N03 Eq. 30, which tears bodies in tension")
           .choice("shape_functions", &MethodInput::shape_functions,
-                  {{"linear", ShapeFunctionKind::linear}, {"gimp", ShapeFunctionKind::gimp}, {"bspline", ShapeFunctionKind::bspline}},
-                  "bilinear (trilinear), uGIMP, or quadratic B-spline")
+                  {{"linear", ShapeFunctionKind::linear},
+                   {"gimp", ShapeFunctionKind::gimp},
+                   {"bspline", ShapeFunctionKind::bspline},
+                   {"cpdi", ShapeFunctionKind::cpdi}},
+                  "bilinear (trilinear), uGIMP, quadratic B-spline, or CPDI, whose domains stretch with the body")
           .choice("crack_shape_functions", &MethodInput::crack_shape_functions,
                   {{"linear", CrackShapeFunctions::linear}, {"same", CrackShapeFunctions::same}},
                   "by what crack points are moved: linear functions, or B-splines where particles have them")

@@ -111,6 +111,9 @@ class BodyBuilder {
       case ShapeFunctionKind::gimp:
         field.edge = EdgeMap::gimp(half_size);
         break;
+      case ShapeFunctionKind::cpdi:
+        field.edge = EdgeMap::cpdi(half_size);
+        break;
       case ShapeFunctionKind::bspline:
         field.edge = EdgeMap::bspline(half_size);
         break;

@@ -7,6 +7,7 @@
 
 #include "crampon/run/find_faces.hpp"
 #include "crampon/shape/bspline.hpp"
+#include "crampon/shape/domain.hpp"
 #include "crampon/shape/gimp.hpp"
 #include "crampon/shape/linear.hpp"
 
@@ -20,6 +21,8 @@ double stencil_reach(ShapeFunctionKind kind, double half_size) {
       return LinearShape::reach(half_size);
     case ShapeFunctionKind::gimp:
       return GimpShape::reach(half_size);
+    case ShapeFunctionKind::cpdi:
+      return GimpShape::reach(largest_half_extent);
     case ShapeFunctionKind::bspline:
       return BsplineShape::reach(half_size);
   }

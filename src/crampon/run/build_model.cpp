@@ -220,13 +220,20 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
     packs += count;
   }
   Particles<Dim>& particles = state.particles;
-  particles.allocate(packs, history, model.remembers_contact());
+  const bool has_domains = model.shape_functions == ShapeFunctionKind::cpdi;
+  particles.allocate(packs, history, model.remembers_contact(), has_domains);
   for (std::size_t m = 0; m < by_material.size(); ++m) {
     const Run& run = state.blocks.runs[m];
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
       Pack* law_history = particles.history.data() + k * static_cast<std::size_t>(history);
       for (int c = 0; c < history; ++c) law_history[c] = splat(0.);
       model.materials[m].law->initialise(Dim, &particles.stress[k * stress_size<Dim>], law_history);
+      for (int c = 0; has_domains && c < domain_size<Dim>; ++c) {
+        const auto axis = static_cast<std::size_t>(c / Dim);
+        const bool along = c / Dim == c % Dim;
+        particles.domain[k * domain_size<Dim> + static_cast<std::size_t>(c)] =
+            splat(along ? model.materials[m].half_size[axis] * model.grid.cell[c / Dim] : 0.);
+      }
       for (int l = 0; l < lanes; ++l) {
         const std::size_t slot = k * lanes + l, i = slot - std::size_t{run.first_pack} * lanes;
         const bool real = i < by_material[m].size();

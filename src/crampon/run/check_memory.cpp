@@ -39,8 +39,8 @@ double cell_measure(const Problem& problem) {
 
 /// The arrays of state/particles.hpp, twice: particles are copied when they are put in order.
 template <int Dim>
-double bytes_of_particle(int history) {
-  const double packs = motion_packs<Dim> + (2. + stress_size<Dim> + history) / lanes;
+double bytes_of_particle(int history, bool has_domains) {
+  const double packs = motion_packs<Dim> + (2. + stress_size<Dim> + history + (has_domains ? domain_size<Dim> : 0)) / lanes;
   return 2 * (packs * sizeof(Pack) + 2 * sizeof(Vec<Dim>) + sizeof(std::uint32_t) + sizeof(std::uint16_t));
 }
 
@@ -67,8 +67,10 @@ void add_body(const Problem& problem, const Filling& filling, MemoryNeed& need) 
         static_cast<double>(filling.per_cell->size() == 1 ? filling.per_cell->front() : (*filling.per_cell)[static_cast<std::size_t>(k)]);
   const double cells = rough_measure(*filling.shape, dim, box_of(problem)) / cell_measure(problem);
   const int history = filling.law != nullptr ? filling.law->history_size(dim) : 0;
+  const bool has_domains = problem.method.shape_functions == ShapeFunctionKind::cpdi;
   need.particles.push_back(cells * per_cell);
-  need.bodies.push_back(cells * per_cell * (dim == 2 ? bytes_of_particle<2>(history) : bytes_of_particle<3>(history)) +
+  need.bodies.push_back(cells * per_cell *
+                            (dim == 2 ? bytes_of_particle<2>(history, has_domains) : bytes_of_particle<3>(history, has_domains)) +
                         cells * (dim == 2 ? bytes_of_active_cell<2> : bytes_of_active_cell<3>));
 }
 

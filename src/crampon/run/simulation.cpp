@@ -260,6 +260,7 @@ std::unique_ptr<Simulation> create_in(const Problem& problem, int threads) {
     case ShapeFunctionKind::linear:
       return std::make_unique<Engine<Dim, LinearShape>>(problem, threads);
     case ShapeFunctionKind::gimp:
+    case ShapeFunctionKind::cpdi:
       return std::make_unique<Engine<Dim, GimpShape>>(problem, threads);
     case ShapeFunctionKind::bspline:
       return std::make_unique<Engine<Dim, BsplineShape>>(problem, threads);

@@ -7,6 +7,7 @@ namespace crampon {
 struct BsplineShape {
   static constexpr int width = 3;
   static constexpr double bin_shift = 0.5;  ///< particles are binned by nearest node
+  static constexpr bool has_domains = false;
   /// Cells from a particle to the furthest node that it can reach.
   static constexpr double reach(double /*half_size*/) { return 1.5; }
 

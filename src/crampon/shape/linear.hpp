@@ -7,6 +7,7 @@ namespace crampon {
 struct LinearShape {
   static constexpr int width = 2;         ///< nodes per axis
   static constexpr double bin_shift = 0;  ///< particles are binned by cell
+  static constexpr bool has_domains = false;
   /// Cells from a particle to the furthest node that it can reach.
   static constexpr double reach(double /*half_size*/) { return 1; }
 

@@ -2,10 +2,12 @@
 /// S_ip and G_ip (N03 Eq. 24) of four particles at all nodes of their stencils.
 
 #include <array>
+#include <cmath>
 #include <type_traits>
 
 #include "crampon/core/pack.hpp"
 #include "crampon/core/vector.hpp"
+#include "crampon/shape/domain.hpp"
 #include "crampon/state/grid.hpp"
 
 namespace crampon {
@@ -70,12 +72,27 @@ struct NodeWeights {
       }
     }
   }
+  explicit NodeWeights(const CornerFactors& f) {
+    for (int n = 0; n < count; ++n) {
+      const auto i = unflatten<Dim>(n, Width);
+      S[n] = G[n][0] = G[n][1] = splat(0.);
+      for (int c = 0; c < CornerFactors::count; ++c) {
+        const Pack at_corner = f.N[c][0][i[0]] * f.N[c][1][i[1]];
+        S[n] = fused(splat(1. / CornerFactors::count), at_corner, S[n]);
+        for (int k = 0; k < 2; ++k) G[n][k] = fused(f.slope[c][k], at_corner, G[n][k]);
+      }
+    }
+  }
 };
 
 /// Where the stencils of four particles lie, and the factors of their S_ip and G_ip.
 template <int Dim, class Shape>
 struct StencilFactors {
+  static constexpr bool has_corners = Shape::has_domains && Dim == 2;
+  struct Nothing {};
+
   AxisFactors<Dim, Shape::width> factors;
+  [[no_unique_address]] std::conditional_t<has_corners, CornerFactors, Nothing> corners;
   alignas(32) int base[lanes];  ///< index of the lowest node in the tile's layers: layer * nodes + tile index
   bool same_base;               ///< all four particles share it
   int layer = 0;                ///< of pairs that cross nothing
@@ -95,6 +112,30 @@ struct StencilFactors {
 
   /// x: positions, one Pack per axis, m; first_node: grid index of the block's first node.
   void compute(const Pack* x, const Grid<Dim>& grid, const IndexVector<Dim>& first_node, const HalfSize<Dim>& half_size) {
+    Pack f[Dim];
+    place(x, grid, first_node, f);
+    for (int k = 0; k < Dim; ++k) Shape::weights(f[k], half_size[k], grid.inverse_cell[k], factors.N[k], factors.dN[k]);
+    if constexpr (has_corners) corners.in_use = false;
+  }
+  /// The same for domains that have moved with the nodes.
+  void compute(const Pack* x, const Grid<Dim>& grid, const IndexVector<Dim>& first_node, const DomainEdges<Dim>& edges) {
+    Pack d[Dim];
+    place(x, grid, first_node, d);
+    for (int k = 0; k < Dim; ++k) d[k] = d[k] - Shape::bin_shift;
+    if constexpr (has_corners) {
+      corners.compute(d, edges, grid.inverse_cell);
+    } else {
+      for (int k = 0; k < Dim; ++k) {
+        Pack square = splat(0.);
+        for (int j = 0; j < Dim; ++j) square = fused(edges.r[k][j], edges.r[k][j], square);
+        box_factors(d[k], lane_sqrt(square), grid.inverse_cell[k], factors.N[k], factors.dN[k]);
+      }
+    }
+  }
+
+ private:
+  /// Finds the nodes; f: where particles are in their bins, in cells.
+  [[gnu::always_inline]] inline void place(const Pack* x, const Grid<Dim>& grid, const IndexVector<Dim>& first_node, Pack* f) {
     using T = Tile<Dim, Shape>;
     layer = 0;
     Pack index = splat(0.);
@@ -102,7 +143,7 @@ struct StencilFactors {
     for (int k = 0; k < Dim; ++k) {
       const Pack g = (x[k] - grid.origin[k]) * grid.inverse_cell[k] + Shape::bin_shift;
       const Pack bin = lane_floor(g);
-      Shape::weights(g - bin, half_size[k], grid.inverse_cell[k], factors.N[k], factors.dN[k]);
+      f[k] = g - bin;
       // bin: cell (width 2) or nearest node (width 3); the lowest node is one below the nearest.
       const double lowest = T::offset - first_node[k] - (Shape::width == 3 ? 1 : 0);
       index = fused(bin + lowest, splat(stride), index);
@@ -112,10 +153,19 @@ struct StencilFactors {
     same_base = base[0] == base[1] && base[0] == base[2] && base[0] == base[3];
   }
 
- private:
   /// The factors of lane l at node n, with the derivative along one axis or none.
   double product(int n, int l, int derived) const {
     const auto i = unflatten<Dim>(n, Shape::width);
+    if constexpr (has_corners) {
+      if (corners.in_use) {
+        double sum = 0;
+        for (int c = 0; c < CornerFactors::count; ++c) {
+          const double by = derived < 0 ? 1. / CornerFactors::count : corners.slope[c][derived][l];
+          sum = std::fma(by, corners.N[c][0][i[0]][l] * corners.N[c][1][i[1]][l], sum);
+        }
+        return sum;
+      }
+    }
     double value = (derived == 0 ? factors.dN : factors.N)[0][i[0]][l];
     for (int k = 1; k < Dim; ++k) value *= (derived == k ? factors.dN : factors.N)[k][i[k]][l];
     return value;
@@ -135,7 +185,7 @@ struct Stencil {
   const Factors& of;
   [[no_unique_address]] std::conditional_t<separable, Nothing, NodeWeights<Dim, Shape::width>> weights;
 
-  explicit Stencil(const Factors& f) : of(f), weights(f.factors) {}
+  explicit Stencil(const Factors& f) : of(f), weights(weights_of(f)) {}
 
   double weight(int n, int l) const {
     if constexpr (separable) {
@@ -150,6 +200,15 @@ struct Stencil {
     } else {
       return weights.G[n][k][l];
     }
+  }
+
+ private:
+  using Weights = std::conditional_t<separable, Nothing, NodeWeights<Dim, Shape::width>>;
+  static Weights weights_of(const Factors& f) {
+    if constexpr (Factors::has_corners) {
+      if (f.corners.in_use) return Weights(f.corners);
+    }
+    return Weights(f.factors);
   }
 };
 

@@ -18,6 +18,9 @@ inline constexpr int stress_size = Dim == 2 ? 4 : 6;
 /// Packs per particle that hold position and velocity: {x, y, vx, vy} in 2D; {x, y, z, 0}, {vx, vy, vz, 1} in 3D.
 template <int Dim>
 inline constexpr int motion_packs = Dim == 2 ? 1 : 2;
+/// Components of the half edges of a particle's domain.
+template <int Dim>
+inline constexpr int domain_size = Dim* Dim;
 
 inline constexpr std::uint32_t padding_id = std::numeric_limits<std::uint32_t>::max();
 
@@ -34,6 +37,7 @@ struct Particles {
   AlignedArray<Pack> mass_volume;     ///< [pack][2]: mass kg, initial volume m3
   AlignedArray<Pack> stress;          ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
   AlignedArray<Pack> history;         ///< [pack][history_size]: strain or deformation gradient and the law's own variables
+  AlignedArray<Pack> domain;          ///< [pack][domain_size]: half edges of domains that stretch, m, [axis * Dim + edge]; else empty
   AlignedArray<Vec<Dim>> original;    ///< [particle]: position at the start, m
   AlignedArray<double> contact;       ///< [particle]: what it remembers of contact (ContactPair::history); empty when no law asks
   AlignedArray<Vec<Dim>> moved_with;  ///< [particle]: velocity with which it moved in the last step, m/s; kept where someone will look
@@ -42,20 +46,21 @@ struct Particles {
 
   std::size_t size() const { return packs * lanes; }
 
-  void allocate(std::size_t pack_count, int history_packs, bool remembers_contact) {
+  void allocate(std::size_t pack_count, int history_packs, bool remembers_contact, bool has_domains) {
     packs = pack_count;
     history_size = history_packs;
     motion.resize_discarding(size() * motion_packs<Dim>);
     mass_volume.resize_discarding(packs * 2);
     stress.resize_discarding(packs * stress_size<Dim>);
     history.resize_discarding(packs * history_size);
+    domain.resize_discarding(has_domains ? packs * domain_size<Dim> : 0);
     original.resize_discarding(size());
     contact.resize_discarding(remembers_contact ? size() : 0);
     id.resize_discarding(size());
     body.resize_discarding(size());
   }
   std::size_t bytes() const {
-    return motion.bytes() + mass_volume.bytes() + stress.bytes() + history.bytes() + original.bytes() + contact.bytes() +
+    return motion.bytes() + mass_volume.bytes() + stress.bytes() + history.bytes() + domain.bytes() + original.bytes() + contact.bytes() +
            moved_with.bytes() + id.bytes() + body.bytes();
   }
 
@@ -93,6 +98,7 @@ struct Particles {
     x[1] = b;
     if constexpr (Dim == 3) x[2] = c;
   }
+  bool has_domains() const { return domain.size() > 0; }
   /// {m v, m} of particle p, the mass in lane Dim (N03 Eq. 26).
   Pack momentum_record(std::size_t p, double mass) const {
     if constexpr (Dim == 2) {

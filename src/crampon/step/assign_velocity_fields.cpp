@@ -84,7 +84,7 @@ class BlockAssignment {
       bool special = false;
       for (int l = 0; l < lanes && !special; ++l) special = near_something(x, l);
       if (!special) continue;
-      stencil.compute(x, model_.grid, first, model_.materials[run->material].half_size);
+      compute_factors<Dim, Shape>(state_.particles, model_.grid, first, model_.materials[run->material].half_size, k, stencil);
       layers_.special[k - first_pack] = count++;
       field_ = model_.materials[run->material].field;
       rigid_ = model_.is_rigid(field_);

@@ -7,6 +7,26 @@
 
 namespace crampon {
 
+/// Factors of S_ip and G_ip of a pack; half_size: of its particles at the start.
+template <int Dim, class Shape>
+[[gnu::always_inline]] inline void compute_factors(const Particles<Dim>& particles, const Grid<Dim>& grid,
+                                                   const IndexVector<Dim>& first_node, const HalfSize<Dim>& half_size, std::size_t pack,
+                                                   StencilFactors<Dim, Shape>& out) {
+  Pack x[Dim];
+  particles.pack_positions(pack, x);
+  if constexpr (Shape::has_domains) {
+    if (particles.has_domains()) {
+      DomainEdges<Dim> edges;
+      const Pack* half_edge = &particles.domain[pack * domain_size<Dim>];
+      for (int k = 0; k < Dim; ++k) {
+        for (int j = 0; j < Dim; ++j) edges.r[k][j] = half_edge[k * Dim + j] * splat(grid.inverse_cell[k]);
+      }
+      return out.compute(x, grid, first_node, edges);
+    }
+  }
+  out.compute(x, grid, first_node, half_size);
+}
+
 /// The stencils of a block's packs, run by run.
 template <int Dim, class Shape>
 class BlockStencils {
@@ -26,9 +46,7 @@ class BlockStencils {
     return run;
   }
   [[gnu::always_inline]] void compute(std::uint32_t pack, StencilFactors<Dim, Shape>& stencil) const {
-    Pack x[Dim];
-    state_.particles.pack_positions(pack, x);
-    stencil.compute(x, model_.grid, first_node_, *half_size_);
+    compute_factors<Dim, Shape>(state_.particles, model_.grid, first_node_, *half_size_, pack, stencil);
     if (layer_ > 0) stencil.move_to_layer(layer_);
   }
   /// Where the pairs of a pack of the run go, or null: all to their own node in the stencil's layer.

@@ -182,7 +182,7 @@ void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model
   if (!state.blocks.list[b].has_particles()) return;
   NodalVector<Dim>* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_force);
   const Particles<Dim>& particles = state.particles;
-  const auto project = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
+  const auto project = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
     scatter_force<Dim, Shape>(stencil, targets, particles.mass_volume[2 * std::size_t{pack} + 1],
                               &particles.stress[std::size_t{pack} * stress_size<Dim>], tiles);
   };
@@ -190,10 +190,7 @@ void update_stress_and_project_forces(State<Dim>& state, const Model<Dim>& model
     update_stress<Dim, Shape>(state, model, b, stress_dt, gathered<Dim, Shape>(state, b, state.nodes.velocity),
                               state.nodes.layers[b].offsets.start, project);
   } else {
-    for_packs<Dim, Shape>(state, model, b,
-                          [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
-                            project(pack, stencil, targets);
-                          });
+    for_packs<Dim, Shape>(state, model, b, project);
   }
   if (!model.rigid_bodies.empty()) project_rigid_motion<Dim, Shape>(state, model, b, dt, tiles);
   project_loads<Dim, Shape>(state, model, b, load_values, tiles);

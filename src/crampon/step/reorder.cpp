@@ -157,6 +157,7 @@ void move_particles(Particles<Dim>& particles, const Order& order, int threads) 
   move_lanes(particles.mass_volume, 2, order, threads);
   move_lanes(particles.stress, stress_size<Dim>, order, threads);
   move_lanes(particles.history, static_cast<std::size_t>(particles.history_size), order, threads);
+  if (particles.has_domains()) move_lanes(particles.domain, domain_size<Dim>, order, threads);
   move_records(particles.original, 1, order, threads);
   if (particles.contact.size() > 0) move_records(particles.contact, 1, order, threads);
   if (particles.watched) move_records(particles.moved_with, 1, order, threads);

@@ -28,7 +28,7 @@ double way_to_middle(const Model<Dim>& model, double dt) {
 }
 
 /// Calls the material law on batches of a few packs of one run: gradients are found while walking, the law sees a batch at once,
-/// and `then(pack, stencil, targets)` follows for every pack of it with the new stress. offsets: of folded pairs, for the time of the velocities.
+/// and `then(pack, stencil, targets, run)` follows for every pack of it with the new stress. offsets: of folded pairs, for the time of the velocities.
 template <int Dim, class Shape, class Then>
 void update_stress(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const NodalVector<Dim>* velocity,
                    const std::vector<Pack>& offsets, Then&& then) {
@@ -54,7 +54,7 @@ void update_stress(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
                                      particles.history.data() + std::size_t{first} * particles.history_size,
                                      particles.history_size};
         if (!law.update(model.stress_state, batch)) healthy = false;
-        for (std::uint32_t k = first; k < end; ++k) then(k, Stencil<Dim, Shape>(factors[k - first]), stencils.targets(k));
+        for (std::uint32_t k = first; k < end; ++k) then(k, Stencil<Dim, Shape>(factors[k - first]), stencils.targets(k), run);
       });
   if (!healthy) state.scratch[b].health.inverted = true;
 }

@@ -72,6 +72,20 @@ void update_velocities_and_project(State<Dim>& state, const Model<Dim>& model, s
 
 namespace {
 
+/// r <- (I + L dt) r for the half edges of the domains of a pack: their corners move with the nodes, as positions do.
+template <int Dim>
+void stretch_domains(Particles<Dim>& particles, std::uint32_t pack, const Pack* L, double dt) {
+  Pack* r = &particles.domain[std::size_t{pack} * domain_size<Dim>];
+  for (int j = 0; j < Dim; ++j) {
+    Pack change[Dim];
+    for (int i = 0; i < Dim; ++i) {
+      change[i] = L[i * Dim] * r[j];
+      for (int k = 1; k < Dim; ++k) change[i] = fused(L[i * Dim + k], r[k * Dim + j], change[i]);
+    }
+    for (int i = 0; i < Dim; ++i) r[i * Dim + j] = fused(splat(dt), change[i], r[i * Dim + j]);
+  }
+}
+
 /// Particles take up what the nodes in contact beside them have gained: the mean over those nodes.
 template <int Dim, class Shape>
 void remember_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
@@ -104,7 +118,14 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
   const bool corrects = further != 0;
   constexpr int position_pack = 0, width = motion_packs<Dim>;
   Pack low = splat(1e300), high = splat(-1e300), fastest = splat(0.), check = splat(0.);
-  const auto move = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
+  const NodalVector<Dim>* end_velocity =
+      particles.has_domains() || stress_dt > 0 ? gathered<Dim, Shape>(state, b, state.nodes.velocity) : nullptr;
+  const auto move = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+    if (particles.has_domains() && !model.is_rigid(model.materials[run.material].field)) {
+      Pack L[Dim * Dim];
+      gradient<Dim, Shape>(stencil, targets, offsets.end.data(), end_velocity, L);
+      stretch_domains(particles, pack, L, dt + further);
+    }
     Pack lowest = low, highest = high, speed = fastest, bad = check;  // in registers
     for (int l = 0; l < lanes; ++l) {
       const std::size_t p = std::size_t{pack} * lanes + l;
@@ -123,12 +144,9 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
     low = lowest, high = highest, fastest = speed, check = bad;
   };
   if (stress_dt > 0) {
-    update_stress<Dim, Shape>(state, model, b, stress_dt, gathered<Dim, Shape>(state, b, state.nodes.velocity), offsets.end, move);
+    update_stress<Dim, Shape>(state, model, b, stress_dt, end_velocity, offsets.end, move);
   } else {
-    for_packs<Dim, Shape>(state, model, b,
-                          [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
-                            move(pack, stencil, targets);
-                          });
+    for_packs<Dim, Shape>(state, model, b, move);
   }
   if (!model.rigid_bodies.empty()) {
     place_rigid_particles(state, model, b, &RigidMotion<Dim>::end, [&](const Vec<Dim>& x) {

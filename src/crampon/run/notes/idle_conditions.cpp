@@ -18,6 +18,7 @@ double reach_of(ShapeFunctionKind kind, double half_size) {
     case ShapeFunctionKind::linear:
       return 1;
     case ShapeFunctionKind::gimp:
+    case ShapeFunctionKind::cpdi:
       return 1 + half_size;
     case ShapeFunctionKind::bspline:
       return 1.5;
