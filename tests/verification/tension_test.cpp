@@ -326,17 +326,30 @@ INSTANTIATE_TEST_SUITE_P(Bspline, OneStep,
 INSTANTIATE_TEST_SUITE_P(Cpdi, OneStep,
                          testing::Combine(testing::Values("cpdi"), testing::Values("usavg", "usf"),
                                           testing::Values(0.8, 0.9, 1.05, 1.1, 1.15, 1.25, 1.5)));
-// Not met: flutter of the stiffness of geometry, which is not symmetric (docs/decisions/0013-positions.md).
+// Not met at 1.10 by B-splines: a force on the outermost row of particles is the cause (OneStepUnderFaceLoad).
 INSTANTIATE_TEST_SUITE_P(Gimp, OneStepFull,
                          testing::Combine(testing::Values("gimp"), testing::Values("usavg", "usf"), testing::Values(0.8)));
 INSTANTIATE_TEST_SUITE_P(Bspline, OneStepFull,
                          testing::Combine(testing::Values("bspline"), testing::Values("usavg", "usf"), testing::Values(1.1, 1.15)));
 
+/// Pulled at its outermost row of particles, a bar of B-splines at 1.10 lets the node grow that lies beyond the row and has next to no mass.
+TEST(OneStepUnderFaceLoad, LetsNothingGrow) {
+  for (const char* update : {"usavg", "usf"}) {
+    for (const double stretch : {0.9, 1.05, 1.1, 1.15}) {
+      const double radius = spectral_radius<BsplineShape>("bspline", update, "strain", 0.5, stretch, true);
+      EXPECT_LT(radius, 1 + 1e-4) << update << " at " << stretch;
+    }
+  }
+}
+
 TEST(OneStepOfN03, Grows) {
   EXPECT_GT(spectral_radius<GimpShape>("gimp", "usavg", "n03", 0.5, 1.1), 1.01) << "else the test above shows nothing";
 }
 
-// Long: all Courant numbers, in space.
+// Long: all Courant numbers, in space. Not met, since sums over particles of uGIMP and B-splines are no exact integrals at large stretch
+// (docs/decisions/0018-domains-that-stretch.md; the same cases with cpdi hold): bars that are oblique (end off by .23 and .11), MUSL and USF at Courant
+// .5 (closure .034 and .056; their error is of first order in the time step, docs/theory/step.md), and bars held at 1.25 by uGIMP at Courant .1
+// and .3 (end off by .112 and .101), by B-splines (tear at 123 ms) and by MUSL (at 163 ms).
 INSTANTIATE_TEST_SUITE_P(Sweep, StretchedFull,
                          testing::Values(Pull{"gimp", "usavg", Space::along, 0.1, 1.5}, Pull{"gimp", "usavg", Space::along, 0.3, 1.5},
                                          Pull{"gimp", "usavg", Space::three, 0.1, 1.5}, Pull{"gimp", "usavg", Space::three, 0.3, 1.5},

@@ -100,17 +100,17 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
     assign_velocity_fields<Dim, Shape>(state, model, dt);  // Task 0
     record_initial_volume<Dim, Shape>(state, model);
   });
-  if (!model.faces.empty()) {
-    phases.blocks("face loads", [&](B b) { weigh_face_loads<Dim, Shape>(state, model, b); });
-    phases.serial("face loads", [&] { settle_face_loads(state, model, load_values); });
-  }
   phases.blocks("project momentum", [&](B b) { project_momentum<Dim, Shape>(state, model, b); });  // Task 1
   if (model.any_contact()) {
     phases.blocks("find contact", [&](B b) { find_shared_nodes<Dim, Shape>(state, model, b); });
     phases.blocks("find contact", [&](B b) { project_contact_sums<Dim, Shape>(state, model, b); });
   }
   phases.blocks("contact and boundaries", [&](B b) { settle_start_momenta<Dim, Shape>(state, model, b, dt); });  // Task 2
-  phases.blocks("stress and forces", [&](B b) {                                                                  // Tasks 2, 3
+  if (!model.faces.empty()) {
+    phases.blocks("face loads", [&](B b) { weigh_face_loads<Dim, Shape>(state, model, b, stress_first ? stress_dt : 0.); });
+    phases.serial("face loads", [&] { settle_face_loads(state, model, load_values); });
+  }
+  phases.blocks("stress and forces", [&](B b) {  // Tasks 2, 3
     update_stress_and_project_forces<Dim, Shape>(state, model, b, dt, stress_first ? stress_dt : 0., load_values, body_force, damping);
   });
   if (model.any_tractions()) phases.serial("crack tractions", [&] { spread_tractions<Dim, Shape>(state, model); });

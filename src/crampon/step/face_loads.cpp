@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crampon/material/deformation.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/stress_pass.hpp"
+#include "crampon/step/tile_buffer.hpp"
 
 namespace crampon {
 
@@ -37,6 +40,7 @@ Vec<Dim> column_of(const std::array<double, Dim * Dim>& F, std::size_t k) {
 template <int Dim, class Shape>
 class LinkWeights {
  public:
+  /// half_size: the same for all particles of a column, so that nodes see whole columns.
   LinkWeights(const Grid<Dim>& grid, const HalfSize<Dim>& half_size, const FaceLink& link, const FaceColumn& column,
               const std::array<double, Dim * Dim>& F, const Vec<Dim>& x_p)
       : link_(link) {
@@ -67,6 +71,14 @@ class LinkWeights {
   Vec<Dim> flux_, normal_;
   double below_ = 0, reach_ = 0, ramp_ = 0;
 };
+
+/// As far as domains may reach.
+template <int Dim>
+HalfSize<Dim> reaching_half_size(const Particles<Dim>& particles, const Material<Dim>& material) {
+  HalfSize<Dim> half = material.half_size;
+  if (particles.has_domains()) half.fill(largest_half_extent);
+  return half;
+}
 
 /// f(weight, S, n) for all nodes n of a particle's stencil.
 template <int Dim, class Shape, class F>
@@ -112,40 +124,87 @@ void start_face_loads(State<Dim>& state, const Model<Dim>& model) {
     s.area_vector[c][model.faces.columns[c].axis] = model.faces.columns[c].direction;
 }
 
+namespace {
+
+/// Deformation gradients of the particles of a pack at the time of their positions.
 template <int Dim, class Shape>
-void weigh_face_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+class DeformationNow {
+ public:
+  DeformationNow(const State<Dim>& state, const Model<Dim>& model, std::size_t b, double stress_dt)
+      : state_(state), model_(model), block_(b), stress_dt_(state.particles.has_domains() ? 0. : stress_dt) {
+    if (stress_dt_ > 0) velocity_ = gathered<Dim, Shape>(state, b, state.nodes.velocity);
+  }
+  /// F[d * Dim + k]
+  void find(std::size_t pack, const Material<Dim>& material, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, Pack* F) const {
+    const Particles<Dim>& particles = state_.particles;
+    if (particles.has_domains()) {
+      for (int c = 0; c < Dim * Dim; ++c) {
+        const double at_start = material.half_size[static_cast<std::size_t>(c % Dim)] * model_.grid.cell[c % Dim];
+        F[c] = particles.domain[pack * domain_size<Dim> + static_cast<std::size_t>(c)] * splat(1 / at_start);
+      }
+      return;
+    }
+    material.law->deformation(model_.stress_state, Dim, &particles.stress[pack * stress_size<Dim>],
+                              particles.history.data() + pack * static_cast<std::size_t>(particles.history_size), F);
+    if (stress_dt_ == 0) return;
+    Pack L[Dim * Dim];
+    gradient<Dim, Shape>(stencil, targets, state_.nodes.layers[block_].offsets.start.data(), velocity_, L);
+    if (material.law->follows_deformation()) {
+      take_to_middle<Dim>(L, way_to_middle(model_, stress_dt_));
+      advance_deformation<Dim>(L, stress_dt_, F);
+    } else {
+      for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) F[i * Dim + j] += (L[i * Dim + j] + L[j * Dim + i]) * splat(0.5 * stress_dt_);
+      }
+    }
+  }
+
+ private:
+  const State<Dim>& state_;
+  const Model<Dim>& model_;
+  std::size_t block_;
+  double stress_dt_;
+  const NodalVector<Dim>* velocity_ = nullptr;
+};
+
+}  // namespace
+
+template <int Dim, class Shape>
+void weigh_face_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double stress_dt) {
+  if (state.scratch[b].faces.empty()) return;
   const auto first_node = state.blocks.list[b].first_node();
   const Particles<Dim>& particles = state.particles;
+  const DeformationNow<Dim, Shape> deformation(state, model, b, stress_dt);
   std::size_t known = particles.packs;  // the pack whose deformation is at hand
   Pack F_pack[Dim * Dim], stretch = splat(1.);
-  for_slots<Dim, Shape>(state, model, b, state.scratch[b].faces,
-                        [&](const FaceParticle& of, const Stencil<Dim, Shape>& stencil, int l, const PairTarget*, const Run& run) {
-                          const std::size_t pack = of.slot / lanes;
-                          const Material<Dim>& material = model.materials[run.material];
-                          if (pack != known) {
-                            known = pack;
-                            const Pack* stress = &particles.stress[pack * stress_size<Dim>];
-                            const Pack* history = particles.history.data() + pack * static_cast<std::size_t>(particles.history_size);
-                            material.law->deformation(model.stress_state, Dim, stress, history, F_pack);
-                            if (model.stress_state == StressState::plane_stress) {
-                              const PackReport report = material.law->report(model.stress_state, Dim, stress, history);
-                              stretch = report.volume_ratio / report.area_ratio;  // of the thickness
-                            }
-                          }
-                          auto& F = state.faces.deformation[of.number];
-                          for (std::size_t c = 0; c < Dim * Dim; ++c) F[c] = F_pack[c][l];
-                          const Vec<Dim> x_p = particles.position(of.slot);
-                          for_links(model.faces, of.number, [&](std::uint32_t number, const FaceLink& link, const FaceColumn& column) {
-                            if (column.surface == of.number && !link.mirrored) {
-                              state.faces.area_vector[link.column] =
-                                  column_of<Dim>(cofactor<Dim>(F), column.axis) * (column.direction * stretch[l]);
-                            }
-                            double sum = 0;
-                            const LinkWeights<Dim, Shape> weights(model.grid, material.half_size, link, column, F, x_p);
-                            for_nodes<Dim, Shape>(weights, model.grid, first_node, stencil, l, [&](double w, double, int) { sum += w; });
-                            state.faces.sum[number] = sum;
-                          });
-                        });
+  for_slots<Dim, Shape>(
+      state, model, b, state.scratch[b].faces,
+      [&](const FaceParticle& of, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, const Run& run) {
+        const std::size_t pack = of.slot / lanes;
+        const Material<Dim>& material = model.materials[run.material];
+        if (pack != known) {
+          known = pack;
+          deformation.find(pack, material, stencil, targets, F_pack);
+          if (model.stress_state == StressState::plane_stress) {
+            const PackReport report =
+                material.law->report(model.stress_state, Dim, &particles.stress[pack * stress_size<Dim>],
+                                     particles.history.data() + pack * static_cast<std::size_t>(particles.history_size));
+            stretch = report.volume_ratio / report.area_ratio;  // of the thickness
+          }
+        }
+        auto& F = state.faces.deformation[of.number];
+        for (std::size_t c = 0; c < Dim * Dim; ++c) F[c] = F_pack[c][l];
+        const Vec<Dim> x_p = particles.position(of.slot);
+        for_links(model.faces, of.number, [&](std::uint32_t number, const FaceLink& link, const FaceColumn& column) {
+          if (column.surface == of.number && !link.mirrored) {
+            state.faces.area_vector[link.column] = column_of<Dim>(cofactor<Dim>(F), column.axis) * (column.direction * stretch[l]);
+          }
+          double sum = 0;
+          const LinkWeights<Dim, Shape> weights(model.grid, reaching_half_size(particles, material), link, column, F, x_p);
+          for_nodes<Dim, Shape>(weights, model.grid, first_node, stencil, l, [&](double w, double, int) { sum += w; });
+          state.faces.sum[number] = sum;
+        });
+      });
 }
 
 namespace {
@@ -186,8 +245,9 @@ void for_face_forces(const State<Dim>& state, const Model<Dim>& model, std::size
                             for (int k = 0; k < Dim; ++k) t[k] = state.faces.traction[link.column][k];
                             if (link.mirrored) t[column.axis] = -t[column.axis];
                             const double rest = state.faces.rest[link.column];
-                            const LinkWeights<Dim, Shape> weights(model.grid, model.materials[run.material].half_size, link, column,
-                                                                  state.faces.deformation[of.number], x_p);
+                            const LinkWeights<Dim, Shape> weights(model.grid,
+                                                                  reaching_half_size(state.particles, model.materials[run.material]), link,
+                                                                  column, state.faces.deformation[of.number], x_p);
                             for_nodes<Dim, Shape>(weights, model.grid, first_node, stencil, l, [&](double w, double S, int n) {
                               visit(of.slot, stencil, l, targets, n, splat_as<NodalVector<Dim>>(w + S * rest) * t);
                             });
@@ -236,7 +296,7 @@ CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                              \
-  template void weigh_face_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                                           \
+  template void weigh_face_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);                                   \
   template void for_face_forces<DIM, SHAPE>(const State<DIM>&, const Model<DIM>&, std::size_t, const FaceForceVisitor<DIM, SHAPE>&); \
   template void project_face_loads<DIM, SHAPE>(const State<DIM>&, const Model<DIM>&, std::size_t, NodalVector<DIM>*);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)

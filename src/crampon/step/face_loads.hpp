@@ -11,9 +11,10 @@ namespace crampon {
 template <int Dim>
 void start_face_loads(State<Dim>& state, const Model<Dim>& model);
 
-/// What the links of a block's particles sum to over all nodes, how the particles are deformed, and the faces of the outermost ones.
+/// What the links of a block's particles sum to over all nodes, how the particles are deformed, and the faces of the outermost ones. stress_dt:
+/// by which laws are behind positions and about to follow with the velocities of nodes, s.
 template <int Dim, class Shape>
-void weigh_face_loads(State<Dim>& state, const Model<Dim>& model, std::size_t block);
+void weigh_face_loads(State<Dim>& state, const Model<Dim>& model, std::size_t block, double stress_dt);
 
 /// The traction of each column, and what its links lack. load_values: per load and component, Pa. Serial.
 template <int Dim>
