@@ -10,6 +10,7 @@ struct Rectangle final : Shape {
   Vec<2> low, high;  ///< m
   Rectangle(const Vec<2>& low_corner, const Vec<2>& high_corner) : low(low_corner), high(high_corner) {}
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>& x) const override;
   Bounds3 bounds() const override;
   std::optional<double> measure() const override;
 };
@@ -19,6 +20,7 @@ struct Box final : Shape {
   Vec<3> low, high;  ///< m
   Box(const Vec<3>& low_corner, const Vec<3>& high_corner) : low(low_corner), high(high_corner) {}
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>& x) const override;
   Bounds3 bounds() const override { return {low, high}; }
   std::optional<double> measure() const override;
   int dimension() const override { return 3; }

@@ -1,6 +1,7 @@
 #include "crampon/geometry/combine.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -11,6 +12,20 @@ int dimension_of(const std::vector<ShapePtr>& parts) {
   for (const ShapePtr& part : parts) dimension = std::max(dimension, part->dimension());
   return dimension;
 }
+
+// The part whose distance comes before those of all others; of equals the first.
+template <class Before>
+const Shape& foremost(const std::vector<ShapePtr>& parts, const Vec<3>& x, Before before) {
+  const Shape* found = parts.front().get();
+  double distance = found->distance(x);
+  for (std::size_t k = 1; k < parts.size(); ++k) {
+    const double other = parts[k]->distance(x);
+    if (!before(other, distance)) continue;
+    found = parts[k].get();
+    distance = other;
+  }
+  return *found;
+}
 }  // namespace
 
 Union::Union(std::vector<ShapePtr> parts) : parts_(std::move(parts)) {}
@@ -20,6 +35,8 @@ double Union::distance(const Vec<3>& x) const {
   for (const ShapePtr& part : parts_) nearest = std::min(nearest, part->distance(x));
   return nearest;
 }
+
+Vec<3> Union::outward(const Vec<3>& x) const { return foremost(parts_, x, std::less<>()).outward(x); }
 
 bool Union::contains(const Vec<3>& x, double slack) const {
   return std::any_of(parts_.begin(), parts_.end(), [&](const ShapePtr& part) { return part->contains(x, slack); });
@@ -48,6 +65,8 @@ double Intersection::distance(const Vec<3>& x) const {
   return furthest;
 }
 
+Vec<3> Intersection::outward(const Vec<3>& x) const { return foremost(parts_, x, std::greater<>()).outward(x); }
+
 bool Intersection::contains(const Vec<3>& x, double slack) const {
   return std::all_of(parts_.begin(), parts_.end(), [&](const ShapePtr& part) { return part->contains(x, slack); });
 }
@@ -73,6 +92,11 @@ double Difference::distance(const Vec<3>& x) const {
   double furthest = whole_->distance(x);
   for (const ShapePtr& part : taken_away_) furthest = std::max(furthest, -part->distance(x));
   return furthest;
+}
+
+Vec<3> Difference::outward(const Vec<3>& x) const {
+  const Shape& part = foremost(taken_away_, x, std::less<>());
+  return whole_->distance(x) >= -part.distance(x) ? whole_->outward(x) : -part.outward(x);
 }
 
 int Difference::dimension() const { return std::max(whole_->dimension(), dimension_of(taken_away_)); }

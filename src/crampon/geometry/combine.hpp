@@ -12,6 +12,7 @@ class Union final : public Shape {
  public:
   explicit Union(std::vector<ShapePtr> parts);
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>& x) const override;
   bool contains(const Vec<3>& x, double slack = 0) const override;
   Bounds3 bounds() const override;
   std::optional<double> measure() const override;
@@ -26,6 +27,7 @@ class Intersection final : public Shape {
  public:
   explicit Intersection(std::vector<ShapePtr> parts);
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>& x) const override;
   bool contains(const Vec<3>& x, double slack = 0) const override;
   Bounds3 bounds() const override;
   std::optional<double> measure() const override;
@@ -40,6 +42,7 @@ class Difference final : public Shape {
  public:
   Difference(ShapePtr whole, std::vector<ShapePtr> taken_away);
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>& x) const override;
   Bounds3 bounds() const override { return whole_->bounds(); }
   int dimension() const override;
 

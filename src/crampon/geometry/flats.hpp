@@ -8,6 +8,7 @@ namespace crampon {
 /// All of the plane or of space.
 struct Everywhere final : Shape {
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>&) const override { return {}; }
   Bounds3 bounds() const override;
   int dimension() const override { return 0; }
 };
@@ -18,6 +19,7 @@ class HalfPlane final : public Shape {
   /// point in m; normal of any length but zero; dimension 2 or 3 (half-space).
   HalfPlane(const Vec<3>& point, const Vec<3>& normal, int dimension);
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>&) const override { return normal_; }
   Bounds3 bounds() const override;
   int dimension() const override { return dimension_; }
 
@@ -31,6 +33,7 @@ class Point final : public Shape {
  public:
   Point(const Vec<3>& point, int dimension);
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>& x) const override;
   Bounds3 bounds() const override;
   std::optional<double> measure() const override { return 0.; }
   int dimension() const override { return dimension_; }
@@ -45,6 +48,7 @@ class Line final : public Shape {
  public:
   Line(const Vec<3>& from, const Vec<3>& to, int dimension);
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>& x) const override;
   Bounds3 bounds() const override;
   std::optional<double> measure() const override { return 0.; }
   int dimension() const override { return dimension_; }

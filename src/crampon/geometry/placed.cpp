@@ -30,6 +30,11 @@ Vec<3> Rotated::turn_back(const Vec<3>& x) const {
   return about_ + Vec<3>{{dot(columns_[0], r), dot(columns_[1], r), dot(columns_[2], r)}};
 }
 
+Vec<3> Rotated::outward(const Vec<3>& x) const {
+  const Vec<3> n = shape_->outward(turn_back(x));
+  return n[0] * columns_[0] + n[1] * columns_[1] + n[2] * columns_[2];
+}
+
 Bounds3 Rotated::bounds() const {
   const Bounds3 inner = shape_->bounds();
   Bounds3 box{about_, about_};

@@ -13,6 +13,7 @@ class Rotated final : public Shape {
   /// angle in rad, right-handed about `axis` (any length but zero); about: point on the axis, m.
   Rotated(ShapePtr shape, double angle, const Vec<3>& about, const Vec<3>& axis = {{0, 0, 1}});
   double distance(const Vec<3>& x) const override { return shape_->distance(turn_back(x)); }
+  Vec<3> outward(const Vec<3>& x) const override;
   bool contains(const Vec<3>& x, double slack = 0) const override { return shape_->contains(turn_back(x), slack); }
   Bounds3 bounds() const override;
   std::optional<double> measure() const override;
@@ -32,6 +33,7 @@ class Translated final : public Shape {
   /// by: m
   Translated(ShapePtr shape, const Vec<3>& by);
   double distance(const Vec<3>& x) const override { return shape_->distance(x - by_); }
+  Vec<3> outward(const Vec<3>& x) const override { return shape_->outward(x - by_); }
   bool contains(const Vec<3>& x, double slack = 0) const override { return shape_->contains(x - by_, slack); }
   Bounds3 bounds() const override;
   std::optional<double> measure() const override { return shape_->measure(); }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "crampon/core/predicates.hpp"
+#include "crampon/geometry/direction.hpp"
 
 namespace crampon {
 namespace {
@@ -55,6 +56,15 @@ double distance2_to_edge(const Vec<2>& a, const Vec<2>& b, const Vec<2>& x) {
   return dot(off, off);
 }
 
+// Exact, at a corner that every loop bends at: the leftmost (the lowest of these).
+bool counter_clockwise(const Corners& loop) {
+  const std::size_t n = loop.size();
+  std::size_t k = 0;
+  for (std::size_t j = 1; j < n; ++j)
+    if (loop[j].c < loop[k].c) k = j;
+  return orient_sign(loop[(k + n - 1) % n], loop[k], loop[(k + 1) % n]) > 0;
+}
+
 bool edges_touch(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& d) {
   for (int k = 0; k < 2; ++k)
     if (std::max(a[k], b[k]) < std::min(c[k], d[k]) || std::max(c[k], d[k]) < std::min(a[k], b[k])) return false;
@@ -94,11 +104,8 @@ bool loops_touch(const Corners& one, const Corners& other) {
 
 Polygon::Polygon(Corners outer, std::vector<Corners> holes)
     : bounds_{{{infinity, infinity, -infinity}}, {{-infinity, -infinity, infinity}}} {
-  const auto add_edges = [this](const Corners& loop) {
-    for (std::size_t k = 0; k < loop.size(); ++k) edges_.push_back({loop[k], loop[(k + 1) % loop.size()]});
-  };
   outer = opened(std::move(outer));
-  add_edges(outer);
+  add_loop(outer, false);
   area_ = loop_area(outer);
   for (const Vec<2>& corner : outer) {
     for (int k = 0; k < 2; ++k) {
@@ -108,7 +115,7 @@ Polygon::Polygon(Corners outer, std::vector<Corners> holes)
   }
   for (Corners& hole : holes) {
     hole = opened(std::move(hole));
-    add_edges(hole);
+    add_loop(hole, true);
     area_ -= loop_area(hole);
   }
 }
@@ -126,6 +133,40 @@ double Polygon::distance(const Vec<3>& x) const {
   // Off the edges the distance may still round to zero; the sign must survive for containment.
   const double positive = std::max(std::sqrt(distance2), std::numeric_limits<double>::denorm_min());
   return place == Place::inside ? -positive : positive;
+}
+
+void Polygon::add_loop(const Corners& loop, bool hole) {
+  const std::size_t n = loop.size(), first = edges_.size();
+  const double side = counter_clockwise(loop) == hole ? -1 : 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec<2> along = unit_along(loop[(k + 1) % n] - loop[k]);
+    edges_.push_back({loop[k], loop[(k + 1) % n], side * Vec<2>{{along[1], -along[0]}}});
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    edges_[first + k].normal_before = edges_[first + (k + n - 1) % n].normal;
+    edges_[first + k].normal_after = edges_[first + (k + 1) % n].normal;
+  }
+}
+
+Vec<3> Polygon::outward(const Vec<3>& x) const {
+  const Vec<2> p{{x[0], x[1]}};
+  Place place = Place::outside;
+  double distance2 = infinity;
+  const Edge* nearest = nullptr;
+  for (const Edge& edge : edges_) {
+    place = pass_edge(edge.from, edge.to, p, place);
+    const double other = distance2_to_edge(edge.from, edge.to, p);
+    if (other < distance2) {
+      distance2 = other;
+      nearest = &edge;
+    }
+  }
+  const auto& [from, to, normal, before, after] = *nearest;
+  // Beyond an end the corner is nearest: seen from outside where the boundary is convex, from inside where it is not.
+  const double side = place == Place::inside ? -1 : 1;
+  if (dot(to - from, p - from) <= 0) return in_plane(between_normals(side * unit_along(p - from), normal, before));
+  if (dot(to - from, p - to) >= 0) return in_plane(between_normals(side * unit_along(p - to), normal, after));
+  return in_plane(normal);
 }
 
 std::vector<PolygonFault> find_polygon_faults(const Corners& outer, const std::vector<Corners>& holes) {

@@ -17,13 +17,17 @@ class Polygon final : public Shape {
   /// Loops as find_polygon_faults accepts them; a last corner that repeats the first is dropped.
   explicit Polygon(Corners outer, std::vector<Corners> holes = {});
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>& x) const override;
   Bounds3 bounds() const override { return bounds_; }
   std::optional<double> measure() const override { return area_; }
 
  private:
   struct Edge {
     Vec<2> from, to;
+    Vec<2> normal;                           // unit, outward
+    Vec<2> normal_before{}, normal_after{};  // of the neighbours at from and to
   };
+  void add_loop(const Corners& loop, bool hole);
   std::vector<Edge> edges_;
   Bounds3 bounds_;
   double area_ = 0;

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <numbers>
 
+#include "crampon/geometry/direction.hpp"
+
 namespace crampon {
+
+Vec<3> Sphere::outward(const Vec<3>& x) const { return unit_along(x - centre); }
 
 Bounds3 Sphere::bounds() const {
   const Vec<3> reach{{radius, radius, radius}};
@@ -19,6 +23,20 @@ double Cylinder::distance(const Vec<3>& x) const {
   const double beyond_end = std::max(-along, along - length), beyond_side = across - radius;
   if (beyond_end > 0 && beyond_side > 0) return std::hypot(beyond_end, beyond_side);
   return std::max(beyond_end, beyond_side);
+}
+
+Vec<3> Cylinder::outward(const Vec<3>& x) const {
+  const Vec<3> axis = to - from, r = x - from;
+  const double length = norm(axis);
+  const Vec<3> e = axis * (1 / length);
+  const double along = dot(e, r);
+  const Vec<3> end = along + along >= length ? e : -e;
+  // Twice: what the first subtraction leaves along the axis is round-off of a longer vector.
+  Vec<3> across = r - along * e;
+  across -= dot(e, across) * e;
+  const double beyond_end = std::max(-along, along - length), beyond_side = norm(across) - radius;
+  if (beyond_end > 0 && beyond_side > 0) return unit_along(beyond_end * end + beyond_side * unit_along(across));
+  return beyond_end >= beyond_side ? end : unit_along(across);
 }
 
 Bounds3 Cylinder::bounds() const {

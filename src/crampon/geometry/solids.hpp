@@ -10,6 +10,7 @@ struct Sphere final : Shape {
   double radius;  ///< m
   Sphere(const Vec<3>& centre_, double radius_) : centre(centre_), radius(radius_) {}
   double distance(const Vec<3>& x) const override { return norm(x - centre) - radius; }
+  Vec<3> outward(const Vec<3>& x) const override;
   Bounds3 bounds() const override;
   std::optional<double> measure() const override;
   int dimension() const override { return 3; }
@@ -21,6 +22,7 @@ struct Cylinder final : Shape {
   double radius;    ///< m
   Cylinder(const Vec<3>& from_, const Vec<3>& to_, double radius_) : from(from_), to(to_), radius(radius_) {}
   double distance(const Vec<3>& x) const override;
+  Vec<3> outward(const Vec<3>& x) const override;
   Bounds3 bounds() const override;
   std::optional<double> measure() const override;
   int dimension() const override { return 3; }
