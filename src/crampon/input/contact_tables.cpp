@@ -33,7 +33,7 @@ const Declaration<ContactInput>& contact_declaration() {
           .choice("fields", &ContactInput::fields,
                   {{"single", FieldsOf::all}, {"materials", FieldsOf::materials}, {"bodies", FieldsOf::bodies}},
                   "velocity fields (N13 sec. 1.2): one for all bodies, which then stick where they meet, one for each material, or one for "
-                  "each body")
+                  "each body; left out where default is given and would hold nowhere: bodies")
           .one_of("default", &ContactInput::between_fields, contact_laws,
                   "law between bodies of different fields, rigid bodies and walls, unless a [[contact_pair]] says otherwise")
           .choice("material_detection", &ContactInput::material_detection, detections,

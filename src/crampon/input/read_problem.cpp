@@ -1,5 +1,6 @@
 #include "crampon/input/read_problem.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -9,6 +10,31 @@
 #include "crampon/input/toml_source.hpp"
 
 namespace crampon {
+
+namespace {
+
+void replace_default(ResolvedTable& root, const std::string& table, const std::string& key, const std::string& text) {
+  const auto find = [](ResolvedTable& in, const std::string& name) {
+    return std::find_if(in.items.begin(), in.items.end(), [&](const ResolvedTable::Item& item) { return item.key == name; });
+  };
+  const auto at = find(root, table);
+  if (at == root.items.end() || at->tables.empty()) return;
+  const auto item = find(at->tables.front(), key);
+  if (item != at->tables.front().items.end()) item->text = text;
+}
+
+/// A law between bodies says that they are to meet: where it would hold nowhere, since nothing gives them velocity fields of their own and there
+/// is nothing else to meet, each has one (a note says so).
+void give_fields(Problem& problem, ResolvedTable& resolved) {
+  ContactInput& contact = problem.contact;
+  if (!contact.keys.contains("default") || contact.keys.contains("fields") || problem.bodies.size() < 2) return;
+  if (!problem.rigids.empty() || !problem.walls.empty() || std::holds_alternative<BondedContact>(contact.between_fields)) return;
+  if (std::any_of(problem.bodies.begin(), problem.bodies.end(), [](const BodyInput& body) { return body.field.has_value(); })) return;
+  contact.fields = FieldsOf::bodies;
+  replace_default(resolved, "contact", "fields", "\"bodies\"");
+}
+
+}  // namespace
 
 Problem read_problem_text(const std::string& text, const std::string& name, const std::string& directory,
                           const std::vector<std::string>& overrides) {
@@ -20,7 +46,8 @@ Problem read_problem_text(const std::string& text, const std::string& name, cons
 
   Problem problem;
   ReadContext context{diagnostics, directory};
-  const ResolvedTable resolved = read_record(context, problem_declaration(), *root, &problem, "");
+  ResolvedTable resolved = read_record(context, problem_declaration(), *root, &problem, "");
+  give_fields(problem, resolved);
   check_problem(problem, diagnostics);
   diagnostics.throw_if_any();
   problem.written = std::move(context.written);

@@ -45,6 +45,12 @@ bool any_seem_to_meet(const Start<Dim>& start) {
 template <int Dim>
 void note_contact_without_fields(const Start<Dim>& start, Notes& notes) {
   const Problem& problem = start.problem;
+  if (problem.contact.fields == FieldsOf::bodies && !problem.contact.keys.contains("fields")) {
+    notes.push_back({problem.contact.at("default"), "each body has a velocity field of its own",
+                     "contact.fields is not given, and in one field for all this law would hold nowhere",
+                     "set contact.fields = \"bodies\", or \"single\" for bodies that stick where they meet"});
+    return;
+  }
   std::vector<std::string> stated;
   for (const char* key : keys_about_bodies) {
     if (problem.contact.keys.contains(key)) stated.emplace_back(key);
