@@ -53,15 +53,20 @@ std::string note(const std::string& text, const std::string& directory = ".") {
 
 TEST(Notes, ContactLawWhileAllBodiesShareAField) {
   const std::string law = "[contact]\ndefault = \"frictionless\"\n";
+  EXPECT_EQ(note(block + neighbour + law),
+            "in.toml:24:1: contact.default: each body has a velocity field of its own (contact.fields is not given, and in one field for "
+            "all this "
+            "law would hold nowhere); set contact.fields = \"bodies\", or \"single\" for bodies that stick where they meet");
   EXPECT_EQ(
-      note(block + neighbour + law),
+      note(block + neighbour + law + "fields = \"single\"\n"),
       "in.toml:24:1: contact.default: default has no effect (the bodies \"block\", \"neighbour\" share one velocity field and stick where "
       "they meet); set contact.fields = \"bodies\", or give bodies a field of their own");
   EXPECT_EQ(
       note(block + law),
       "in.toml:19:1: contact.default: default has no effect (there is nothing that the body \"block\" could meet); remove it, or add a "
       "body, a [[rigid]] or a [[wall]]");
-  EXPECT_NE(note(block + neighbour + law + "normal = \"average_gradient\"\n").find("default, normal have no effect"), std::string::npos);
+  EXPECT_NE(note(block + neighbour + law + "fields = \"single\"\nnormal = \"average_gradient\"\n").find("default, normal have no effect"),
+            std::string::npos);
   // Two bodies of one material share a field, too.
   EXPECT_NE(note(block + neighbour + law + "fields = \"materials\"\n").find("share one velocity field"), std::string::npos);
   EXPECT_EQ(notes(block + neighbour + law + "fields = \"bodies\"\n").size(), 0U);
@@ -124,17 +129,27 @@ TEST(Notes, ParticlesInsideAWall) {
 
 TEST(Notes, ThinRigidBodies) {
   const std::string plate = "[[rigid]]\nname = \"plate\"\nshape = { kind = \"rectangle\", low = [0.2, 0.75], high = [0.8, 0.8] }\n";
-  EXPECT_EQ(note(block + plate),
+  EXPECT_EQ(notes(block + plate).size(), 0U) << "its faces are met, however thin it is";
+  EXPECT_EQ(note(block + plate + "faces = \"particles\"\n"),
             "in.toml:20:1: rigid[0].shape: the rigid body \"plate\" is 0.05 m thick, which is 0.5 of a cell (a node beside it sees bodies "
-            "on both "
-            "of its sides at once, and they stick to each other through it); make it thicker, or cells smaller than 0.05 m");
+            "on both of its sides at once, and they stick to each other through it); leave out faces = \"particles\", make it thicker, or "
+            "cells smaller than 0.05 m");
   EXPECT_EQ(notes(block + plate + "role = \"boundary\"\n").size(), 0U) << "thin is no trouble there";
+  const std::string above =
+      "[[body]]\nname = \"upper\"\nmaterial = \"soft\"\nshape = { kind = \"rectangle\", low = [0.3, 0.8], high = [0.7, 0.9] }\n";
+  EXPECT_EQ(
+      note(block + above + plate),
+      "in.toml:24:1: rigid[0].shape: the rigid body \"plate\" is 0.05 m thick, which is 0.5 of a cell, and one velocity field has "
+      "material on both of its sides (a node beside it sees both at once, and they stick to each other through it); set contact.fields "
+      "= \"bodies\", or give one of the bodies a field of its own");
+  EXPECT_EQ(notes("[contact]\nfields = \"bodies\"\n" + block + above + plate).size(), 0U);
   std::string thick = plate;
   thick.replace(thick.find("0.8] }"), 4, "0.9]");
-  EXPECT_EQ(notes(block + thick).size(), 0U);
+  EXPECT_EQ(notes(block + thick + "faces = \"particles\"\n").size(), 0U);
   // A thin bar that leans.
   const std::string leaning =
-      "[[rigid]]\nname = \"bar\"\nshape = { kind = \"polygon\", corners = [[0.1, 0.7], [0.2, 0.7], [0.25, 0.95], [0.15, 0.95]] }\n";
+      "[[rigid]]\nname = \"bar\"\nfaces = \"particles\"\nshape = { kind = \"polygon\", corners = [[0.1, 0.7], [0.2, 0.7], [0.25, 0.95], "
+      "[0.15, 0.95]] }\n";
   EXPECT_NE(note(block + leaning).find("\"bar\" is 0.098"), std::string::npos) << "0.1 m across, at atan(1/5) to the y axis";
 }
 
@@ -286,8 +301,8 @@ TEST(Notes, SilentOnExamplesAndTemplates) {
 }
 
 TEST(Notes, SilentOnProblems) {
-  // Cracks on each other and thin tools are what some of these problems are about.
-  const std::string meant[] = {"coincide", "m thick", "asks for steps"};
+  // Cracks on each other, thin tools and laws without fields are what some of these problems are about.
+  const std::string meant[] = {"coincide", "m thick", "asks for steps", "a velocity field of its own"};
   for (const fs::path& input : inputs_in("tests/problems")) {
     for (const std::string& said : notes_on(input)) {
       const bool expected =

@@ -347,7 +347,7 @@ TEST(OneStepOfN03, Grows) {
 }
 
 // Long: all Courant numbers, in space. Not met, since sums over particles of uGIMP and B-splines are no exact integrals at large stretch
-// (docs/decisions/0018-domains-that-stretch.md; the same cases with cpdi hold): bars that are oblique (end off by .23 and .11), MUSL and USF at Courant
+// (docs/decisions/0019-domains-that-stretch.md; the same cases with cpdi hold): bars that are oblique (end off by .23 and .11), MUSL and USF at Courant
 // .5 (closure .034 and .056; their error is of first order in the time step, docs/theory/step.md), and bars held at 1.25 by uGIMP at Courant .1
 // and .3 (end off by .112 and .101), by B-splines (tear at 123 ms) and by MUSL (at 163 ms).
 INSTANTIATE_TEST_SUITE_P(Sweep, StretchedFull,

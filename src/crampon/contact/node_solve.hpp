@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "crampon/contact/account.hpp"
 #include "crampon/contact/law.hpp"
 #include "crampon/contact/memory.hpp"
 #include "crampon/core/vector.hpp"
@@ -27,14 +28,8 @@ struct ContactGroup {
   Vec<Dim> dp;         ///< impulse of the present task, kg m/s
   bool rigid = false;  ///< moves at p/m whatever befalls it (N13 Eqs. 13-16); dp is what the others give to it
   int body = -1;       ///< rigid: which body
-  bool wall = false;   ///< ... which has no field at the node
 
-  /// For the energy that contact takes (energy_taken in step/adjust_contact.cpp).
-  Vec<Dim> v_start;    ///< before Task 2, m/s
-  Vec<Dim> v_settled;  ///< after it
-  Vec<Dim> gain;       ///< what the forces of Task 3 added to it, m/s
-  Vec<Dim> dp2, dp4;   ///< impulses of Tasks 2 and 4, kg m/s
-
+  ContactAccount<Dim> account;
   Vec<Dim> drift;  ///< velocity of positions over that of strains, m/s: interfaces alone
 
   Vec<Dim> velocity() const { return rigid ? p * (1 / m) : (p + dp) * (1 / m); }
@@ -71,7 +66,7 @@ struct ContactPair {
   ContactState state = ContactState::open;     ///< Task-4 state of this step
   double met_at = 0;                           ///< relative speed that Task 2 has stopped, m/s
   bool stuck = false;                          ///< Task 2 has stopped all slip
-  bool by_gap = false;                         ///< a wall: has no volume to go by
+  bool by_gap = false;                         ///< a rigid face: has no volume to go by
   double w_end = 0;                            ///< normal relative velocity right after the impulse of Task 4, m/s
   Vec<Dim> J;                                  ///< impulse on b in the present task, kg m/s
   Vec<Dim> w_start;                            ///< relative velocity before Task 2: of the particles about the node, m/s
@@ -115,9 +110,6 @@ struct ContactNodes {
     drifts.clear();
   }
 };
-
-/// Tasks of the step; or a term of a series for velocities after Task 4 (step/filter_velocities.hpp), which only keeps the state of Task 4.
-enum class ContactTask { two, four, six, term };
 
 /// How pairs are handled, the same for all nodes of a run.
 struct ContactRules {

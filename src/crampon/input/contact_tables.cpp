@@ -101,6 +101,7 @@ const Declaration<ContactPairInput>& contact_pair_declaration() {
 
 const Declaration<RigidInput>& rigid_declaration() {
   using Role = RigidInput::Role;
+  using Faces = RigidInput::Faces;
   static const auto d =
       Declaration<RigidInput>("rigid", "A body of particles that moves as prescribed, whatever it meets.")
           .name("name", &RigidInput::name, "what contact pairs and the reaction columns call it", required)
@@ -116,6 +117,10 @@ const Declaration<RigidInput>& rigid_declaration() {
                       "its centre at the start; left out: the centre of its volume", Presence::optional, two_or_three)
           .choice("role", &RigidInput::role, {{"contact", Role::contact}, {"boundary", Role::boundary}},
                   "whether it meets bodies by a contact law, or gives its velocity to the nodes in its shape and within half a cell of it")
+          .choice(
+              "faces", &RigidInput::faces, {{"shape", Faces::shape}, {"particles", Faces::particles}},
+              "what bodies meet of it: the faces of its shape, or a field of particles among others (N13); default: shape, but particles "
+              "with contact.scheme = \"literal\" and with an interface")
           .text("components", &RigidInput::components,
                 "boundary: the components of velocity that it gives, as [\"x\", \"y\"]; left out: all")
           .check([](const RigidInput& in, Diagnostics& diagnostics) {
@@ -124,6 +129,9 @@ const Declaration<RigidInput>& rigid_declaration() {
             if (!in.components.empty() && in.role == Role::contact)
               diagnostics.add("components", "components are given for a body in contact", "contact acts in all directions",
                               "remove them, or use role = \"boundary\"");
+            if (in.faces && in.role == Role::boundary)
+              diagnostics.add("faces", "faces are given for a boundary", "it holds nodes, and meets nothing",
+                              "remove them, or use role = \"contact\"");
             for (std::size_t k = 0; k < in.components.size(); ++k)
               if (in.components[k] != "x" && in.components[k] != "y" && in.components[k] != "z")
                 diagnostics.add(fmt::format("components[{}]", k), fmt::format("\"{}\" is no component", in.components[k]), "",

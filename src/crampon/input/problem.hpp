@@ -105,6 +105,8 @@ struct RigidInput : Located {
   std::vector<ValueFunction> spin;      ///< rad/s, of time: one in 2D, three in 3D
   std::vector<double> spin_centre;      ///< at the start, m; default: its centre of volume
   enum class Role { contact, boundary } role = Role::contact;
+  enum class Faces { shape, particles };
+  std::optional<Faces> faces;           ///< what bodies meet: its shape, or its particles (N13 sec. 3); none: by contact.scheme
   std::vector<std::string> components;  ///< boundary: of the velocity; empty: all
 };
 

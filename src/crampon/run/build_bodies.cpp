@@ -4,12 +4,14 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <tuple>
 
 #include "crampon/geometry/fill.hpp"
 #include "crampon/geometry/particles_csv.hpp"
 #include "crampon/material/rigid.hpp"
+#include "crampon/run/wall_shape.hpp"
 
 namespace crampon {
 
@@ -146,35 +148,55 @@ class BodyBuilder {
     out_.per_cell.push_back(per_axis<Dim>(in.particles_per_cell));
     out_.on_lattice.push_back(true);
     RigidBody<Dim>& body = add_rigid_body(in.name, in.velocity, in.spin, Dim == 2 ? in.thickness : 1., out_.per_cell.back());
-    body.prescribes = in.role == RigidInput::Role::boundary;
-    if (body.prescribes) body.shape = in.shape;
+    using Acts = typename RigidBody<Dim>::Acts;
+    using Faces = RigidInput::Faces;
+    const bool literal = problem_.contact.scheme == ContactScheme::literal;
+    const bool as_particles = in.faces.value_or(literal ? Faces::particles : Faces::shape) == Faces::particles;
+    body.acts = in.role == RigidInput::Role::boundary ? Acts::nodes : as_particles ? Acts::particles : Acts::face;
+    body.shape = in.shape;
     const std::size_t first = out_.particles.size();
     const auto material = add_material(std::make_shared<RigidMaterial>(), as_body, out_.per_cell.back(), body.field);
-    fill(as_body, out_.names.size(), material);
+    const Bounds3 bounds = in.shape->bounds();
+    bool bounded = true;
+    for (std::size_t k = 0; k < Dim; ++k) bounded = bounded && std::isfinite(bounds.low[k] + bounds.high[k]);
+    // So thin that no particle's place lies in it, it has a surface all the same.
+    fill(as_body, out_.names.size(), material, body.acts == Acts::face && bounded && has_points(*in.shape, bounds));
     out_.names.push_back(in.name);
     double volume = 0;
     for (std::size_t i = first; i < out_.particles.size(); ++i) {
       body.centre += out_.particles[i].x * out_.particles[i].volume;
       volume += out_.particles[i].volume;
     }
-    if (volume > 0) body.centre *= 1 / volume;
+    if (volume > 0) {
+      body.centre *= 1 / volume;
+    } else {  // so thin that no particle's place lies in it
+      for (std::size_t k = 0; k < Dim && bounded; ++k) body.centre[static_cast<int>(k)] = 0.5 * (bounds.low[k] + bounds.high[k]);
+    }
     for (std::size_t k = 0; k < in.spin_centre.size(); ++k) body.centre[k] = in.spin_centre[k];
+  }
+
+  /// Is any of many points of its box in a shape? Of an intersection of shapes that do not meet none is.
+  static bool has_points(const Shape& shape, const Bounds3& bounds) {
+    constexpr int side = 33;
+    for (int n = 0; n < power(side, Dim); ++n) {
+      const IndexVector<Dim> at = unflatten<Dim>(n, side);
+      Vec<3> x;
+      for (std::size_t k = 0; k < Dim; ++k)
+        x[k] = bounds.low[k] + (bounds.high[k] - bounds.low[k]) * at[static_cast<int>(k)] / static_cast<double>(side - 1);
+      if (shape.contains(x)) return true;
+    }
+    return false;
   }
 
   void add_wall(const WallInput& in) {
     std::array<int, Dim> per_cell;
     per_cell.fill(2);
     RigidBody<Dim>& body = add_rigid_body(in.name, in.velocity, in.spin, HUGE_VAL, per_cell);
-    Wall<Dim> wall;
     const bool flat = in.kind == WallInput::Kind::half_space;
-    wall.kind = flat ? Wall<Dim>::Kind::half_space : in.kind == WallInput::Kind::ball ? Wall<Dim>::Kind::ball : Wall<Dim>::Kind::hollow;
-    wall.radius = in.radius.value_or(0);
-    for (int k = 0; k < Dim; ++k) {
-      body.centre[k] = (flat ? in.point : in.centre)[static_cast<std::size_t>(k)];
-      if (flat) wall.normal[k] = in.normal[static_cast<std::size_t>(k)];
-    }
-    wall.normal = normalized(wall.normal);
-    body.wall = wall;
+    const std::vector<double>& centre = flat ? in.point : in.centre;
+    for (int k = 0; k < Dim; ++k) body.centre[k] = centre[static_cast<std::size_t>(k)];
+    body.shape = wall_shape(in, Dim);
+    body.has_particles = false;
   }
 
   std::uint32_t material_of(const BodyInput& body, const std::array<int, Dim>& per_cell, std::uint16_t field) {
@@ -209,7 +231,7 @@ class BodyBuilder {
     out_.particles.push_back(p);
   }
 
-  void fill(const BodyInput& body, std::size_t b, std::uint32_t material) {
+  void fill(const BodyInput& body, std::size_t b, std::uint32_t material, bool may_be_empty = false) {
     FillGrid fill_grid;
     fill_grid.dimension = Dim;
     std::array<int, 3> per_cell{1, 1, 1};
@@ -220,13 +242,27 @@ class BodyBuilder {
       per_cell[k] = out_.per_cell[b][k];
     }
     const auto particles = fill_shape(*body.shape, fill_grid, per_cell, body.match_mass ? FillMeasure::matched : FillMeasure::lattice);
-    if (particles.empty()) {
+    if (particles.empty() && !may_be_empty) {
       errors_.push_back({body.at("shape"), fmt::format("the body \"{}\" is empty", body.name), "no particle's place lies in its shape",
                          "enlarge the shape, use smaller cells or more particles_per_cell"});
       return;
     }
     const double thickness = out_.materials[material].thickness;
-    for (const FilledParticle& p : particles) add(b, material, p.position, p.measure * thickness, {});
+    for (const FilledParticle& p : particles) {
+      add(b, material, p.position, p.measure * thickness, {});
+      out_.particles.back().surface = surface_from(*body.shape, p.position, out_.per_cell[b]);
+    }
+  }
+
+  /// From a particle's middle to the nearest point of its body's surface, m; zero where that is not its own.
+  Vec<Dim> surface_from(const Shape& shape, const Vec<3>& x, const std::array<int, Dim>& per_cell) const {
+    Vec<Dim> to_surface;
+    const double distance = shape.distance(x);
+    if (distance < -depth_of_surface<Dim>(grid_, per_cell)) return to_surface;
+    const Vec<3> out = shape.outward(x);
+    const double depth = std::fmax(-distance, 1e-9 * grid_.smallest_cell());  // nothing is for those that lie deep
+    for (int k = 0; k < Dim; ++k) to_surface[k] = depth * out[k];
+    return to_surface;
   }
 
   void read(const BodyInput& body, std::size_t b, std::uint32_t material) {
@@ -235,6 +271,7 @@ class BodyBuilder {
       const ListedParticles listed = read_particles_csv(path.string(), Dim, body.at("particles"));
       for (const ListedParticle& p : listed.particles) {
         add(b, material, p.position, p.volume, p.velocity);
+        for (int k = 0; k < Dim; ++k) out_.particles.back().surface[k] = std::numeric_limits<double>::quiet_NaN();
         if (grid_.contains(out_.particles.back().x)) continue;
         errors_.push_back({{path.string(), p.line, 1, body.location.where},
                            fmt::format("the particle at {} lies outside the grid", text_of(out_.particles.back().x)),

@@ -15,7 +15,16 @@ struct NewParticle {
   double volume = 0, mass = 0;  ///< m3, kg
   std::uint32_t material = 0;   ///< index into Model::materials
   std::uint16_t body = 0;
+  Vec<Dim> surface;  ///< from x to the nearest point of its body's surface, as Model::surface has it, m
 };
+
+/// Particles further than this from the surface of their body lie deep in it, m.
+template <int Dim>
+double depth_of_surface(const Grid<Dim>& grid, const std::array<int, Dim>& per_cell) {
+  double square = 0;
+  for (std::size_t k = 0; k < Dim; ++k) square += grid.cell[k] * grid.cell[k] / (per_cell[k] * per_cell[k]);
+  return 0.75 * std::sqrt(square);
+}
 
 /// What the bodies of a problem come to. Particles in the order of bodies, and within a body as filled or as in its file: their ids.
 template <int Dim>

@@ -135,7 +135,14 @@ void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state,
     }
   }
   for (std::size_t r = 0; r < problem.rigids.size(); ++r) {
-    if (model.rigid_bodies[r].prescribes) add_condition(problem.rigids[r], r, model);
+    RigidBody<Dim>& body = model.rigid_bodies[r];
+    if (body.prescribes()) add_condition(problem.rigids[r], r, model);
+    // A spring hangs on a displacement, which a shape does not have.
+    for (std::size_t f = 0; f < n && body.acts == RigidBody<Dim>::Acts::face; ++f) {
+      if (!model.is_rigid(static_cast<int>(f)) &&
+          std::holds_alternative<InterfaceContact>(model.law_between(static_cast<int>(f), body.field)))
+        body.acts = RigidBody<Dim>::Acts::particles;
+    }
   }
   state.rigid.resize(model.rigid_bodies.size());
   for (std::size_t r = 0; r < state.rigid.size(); ++r) {

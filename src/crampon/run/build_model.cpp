@@ -13,6 +13,7 @@
 #include "crampon/run/build_loads.hpp"
 #include "crampon/run/crack_ends.hpp"
 #include "crampon/run/initial_stress.hpp"
+#include "crampon/run/surfaces_at_start.hpp"
 #include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/face_loads.hpp"
 
@@ -297,6 +298,7 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   start_face_loads(out.state, model);
   bear_initial_stress(problem, model, out.state, errors);
   if (!errors.empty()) throw InputError(std::move(errors));
+  keep_surfaces(problem, bodies, out.state, model);
   start_tractions(out.state, model);
   return out;
 }

@@ -120,7 +120,7 @@ std::vector<HistoryColumn> HistorySampler<Dim>::columns() const {
     for (int k = 0; k < Dim; ++k) c.push_back({std::string("reaction_") + axis_names[k] + "." + condition.name, "N"});
   }
   for (const auto& body : model_.rigid_bodies) {
-    if (body.prescribes) continue;  // its condition has the columns
+    if (body.prescribes()) continue;  // its condition has the columns
     for (int k = 0; k < Dim; ++k) c.push_back({std::string("reaction_") + axis_names[k] + "." + body.name, "N"});
     for (int k = Dim == 2 ? 2 : 0; k < 3; ++k) c.push_back({std::string("torque_") + axis_names[k] + "." + body.name, "N m"});
   }
@@ -177,7 +177,7 @@ std::vector<double> HistorySampler<Dim>::row() const {
     for (int k = 0; k < Dim; ++k) row.push_back(c < state_.reactions.size() ? state_.reactions[c][k] : 0.);
   }
   for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b) {
-    if (model_.rigid_bodies[b].prescribes) continue;
+    if (model_.rigid_bodies[b].prescribes()) continue;
     const RigidReaction<Dim> r = b < state_.rigid_reactions.size() ? state_.rigid_reactions[b] : RigidReaction<Dim>{};
     for (int k = 0; k < Dim; ++k) row.push_back(r.force[k]);
     for (int k = Dim == 2 ? 2 : 0; k < 3; ++k) row.push_back(r.torque[k]);

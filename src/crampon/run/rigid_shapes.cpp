@@ -1,35 +1,20 @@
 #include "crampon/run/rigid_shapes.hpp"
 
-#include <memory>
+#include <cmath>
 
-#include "crampon/geometry/combine.hpp"
-#include "crampon/geometry/flats.hpp"
-#include "crampon/geometry/round.hpp"
-#include "crampon/geometry/solids.hpp"
+#include "crampon/run/wall_shape.hpp"
 
 namespace crampon {
 namespace {
 
-Vec<3> vector_of(const std::vector<double>& components) {
-  Vec<3> v;
-  for (std::size_t k = 0; k < components.size() && k < 3; ++k) v[k] = components[k];
-  return v;
-}
-
 RigidShape shape_of(const WallInput& wall, int dimension) {
   RigidShape out;
   out.name = wall.name;
-  if (wall.kind == WallInput::Kind::half_space) {
-    out.shape = std::make_shared<HalfPlane>(vector_of(wall.point), vector_of(wall.normal), dimension);
-    return out;
-  }
-  const Vec<3> centre = vector_of(wall.centre);
-  ShapePtr ball = std::make_shared<Sphere>(centre, wall.radius.value_or(0));
-  if (dimension == 2) ball = std::make_shared<Disk>(Vec<2>{{centre[0], centre[1]}}, wall.radius.value_or(0));
-  out.surface = ball->bounds();
-  out.shape = ball;
-  if (wall.kind == WallInput::Kind::hollow_ball)
-    out.shape = std::make_shared<Difference>(std::make_shared<Everywhere>(), std::vector<ShapePtr>{ball});
+  out.shape = wall_shape(wall, dimension);
+  if (wall.kind == WallInput::Kind::half_space) return out;
+  WallInput ball = wall;
+  ball.kind = WallInput::Kind::ball;
+  out.surface = wall_shape(ball, dimension)->bounds();
   return out;
 }
 

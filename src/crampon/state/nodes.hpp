@@ -80,10 +80,10 @@ struct BlockLayers {
   std::vector<std::int32_t> special;             ///< per pack of the block: index of its targets, or -1; empty: none special
   std::uint32_t tile_begin = 0, node_begin = 0;  ///< first tile / nodal slot
   std::uint32_t crossing_tile_begin = 0, crossing_node_begin = 0;
-  std::vector<std::uint8_t> shared;          ///< per own node: holds several fields or is near a wall; empty: none
+  std::vector<std::uint8_t> shared;          ///< per own node: holds several fields or is near a rigid face; empty: none
   std::vector<std::uint32_t> contact_packs;  ///< of the block's particles: with a part in shared nodes, ascending
-  bool near_wall = false;                    ///< own nodes within reach of an analytic wall
-  bool sums_contact = false;                 ///< some node in reach has several layers or is near a wall
+  bool near_face = false;                    ///< own nodes within reach of a rigid face
+  bool sums_contact = false;                 ///< some node in reach has several layers or is near a rigid face
 
   /// Index into the nodal arrays of node n in layer l.
   std::size_t slot(std::integral auto l, std::integral auto n) const {

@@ -6,7 +6,8 @@
 
 namespace crampon {
 
-/// Tasks 2 and 6 change momenta alone; Task 4 changes momenta and forces together and leaves fixed components alone.
+/// Tasks 2 and 6 change momenta alone; Task 4 changes momenta and forces together and leaves fixed components alone. Nodes that meet_faces has
+/// solved together with rigid faces take what it found.
 template <int Dim>
 void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t block, ContactTask task, double dt);
 

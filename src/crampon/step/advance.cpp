@@ -10,10 +10,12 @@
 #include "crampon/step/face_loads.hpp"
 #include "crampon/step/filter_velocities.hpp"
 #include "crampon/step/find_contacts.hpp"
+#include "crampon/step/find_face_contacts.hpp"
 #include "crampon/step/guard.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/lead_positions.hpp"
 #include "crampon/step/ledger.hpp"
+#include "crampon/step/meet_faces.hpp"
 #include "crampon/step/mirrored_forces.hpp"
 #include "crampon/step/move_cracks.hpp"
 #include "crampon/step/nodes_phase.hpp"
@@ -86,6 +88,17 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
 
   Phases<Dim> phases(state, model.threads);
   using B = std::size_t;
+  // Contact of a task: with rigid faces, whose columns of nodes belong to several blocks, there is something to do between what blocks do.
+  const bool rigid_faces = model.any_rigid_face();
+  const auto contact = [&](const char* name, ContactTask task, auto gather, auto settle) {
+    if (!rigid_faces) return phases.blocks(name, [&](B b) { gather(b), settle(b); });
+    phases.blocks(name, gather);
+    phases.serial(name, [&] {
+      if (task == ContactTask::two) link_face_columns(state, model);
+      meet_faces(state, model, task, dt);
+    });
+    phases.blocks(name, settle);
+  };
   phases.serial("prepare", [&] {
     if (state.must_reorder) reorder<Dim, Shape>(state, model);
     start_rigid_motion(state, model, dt);
@@ -105,7 +118,9 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
     phases.blocks("find contact", [&](B b) { find_shared_nodes<Dim, Shape>(state, model, b); });
     phases.blocks("find contact", [&](B b) { project_contact_sums<Dim, Shape>(state, model, b); });
   }
-  phases.blocks("contact and boundaries", [&](B b) { settle_start_momenta<Dim, Shape>(state, model, b, dt); });  // Task 2
+  contact(
+      "contact and boundaries", ContactTask::two, [&](B b) { gather_start_momenta<Dim, Shape>(state, model, b); },  // Tasks 1, 2
+      [&](B b) { settle_start_momenta(state, model, b, dt); });
   if (!model.faces.empty()) {
     phases.blocks("face loads", [&](B b) { weigh_face_loads<Dim, Shape>(state, model, b, stress_first ? stress_dt : 0.); });
     phases.serial("face loads", [&] { settle_face_loads(state, model, load_values); });
@@ -114,7 +129,10 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
     update_stress_and_project_forces<Dim, Shape>(state, model, b, dt, stress_first ? stress_dt : 0., load_values, body_force, damping);
   });
   if (model.any_tractions()) phases.serial("crack tractions", [&] { spread_tractions<Dim, Shape>(state, model); });
-  phases.blocks("update momenta", [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); });  // Tasks 3, 4
+  contact(
+      "update momenta", ContactTask::four,
+      [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); },  // Tasks 3, 4
+      [&](B b) { settle_updated_momenta(state, model, b, dt, body_force, damping); });
   phases.blocks("account loads", [&](B b) {
     account_loads<Dim, Shape>(state, model, b, dt);
     account_mirrored_forces<Dim, Shape>(state, model, b, dt, load_values, body_force, damping);
@@ -126,7 +144,9 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
     phases.blocks("filter velocities", [&](B b) { start_series(state, transfer, b, dt); });
     for (int term = 2; term <= transfer.terms; ++term) {
       phases.blocks("filter velocities", [&](B b) { project_term<Dim, Shape>(state, model, transfer, b, term); });
-      phases.blocks("filter velocities", [&](B b) { add_term<Dim, Shape>(state, model, b, dt); });
+      contact(
+          "filter velocities", ContactTask::term, [&](B b) { gather_term<Dim, Shape>(state, model, b); },
+          [&](B b) { add_term(state, model, b, dt); });
     }
   }
   if (transfer.re_extrapolates) {
@@ -137,7 +157,9 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
         take_velocities_and_project<Dim, Shape>(state, model, b, rule);
       }
     });
-    phases.blocks("contact and boundaries again", [&](B b) { settle_end_momenta<Dim, Shape>(state, model, b, dt); });  // Task 6
+    contact(
+        "contact and boundaries again", ContactTask::six, [&](B b) { gather_end_momenta<Dim, Shape>(state, model, b); },  // Task 6
+        [&](B b) { settle_end_momenta(state, model, b, dt); });
     phases.blocks("account loads", [&](B b) {
       account_loads_anew<Dim, Shape>(state, b, dt);
       if (body_works_anew) account_body_force(state, model, b, 0.5 * dt, body_force);

@@ -8,10 +8,10 @@
 #include "crampon/core/parallel.hpp"
 #include "crampon/crack/crossing.hpp"
 #include "crampon/step/assemble.hpp"
-#include "crampon/step/find_contacts.hpp"
 #include "crampon/step/folded_pairs.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/packs.hpp"
+#include "crampon/step/rigid_faces.hpp"
 #include "crampon/step/view_cracks.hpp"
 
 namespace crampon {
@@ -313,26 +313,26 @@ void find_node_layers(State<Dim>& state, std::size_t b) {
   own.node_cracks.erase(std::unique(own.node_cracks.begin(), own.node_cracks.end()), own.node_cracks.end());
 }
 
-/// Are own nodes of a block within reach of an analytic wall?
+/// Are own nodes of a block within reach of a rigid face?
 template <int Dim>
-bool block_is_near_wall(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+bool block_is_near_face(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   Vec<Dim> centre, half;
   const auto first = state.blocks.list[b].first_node();
   for (int k = 0; k < Dim; ++k) {
     half[k] = 0.5 * (block_side - 1) * model.grid.cell[k];
     centre[k] = model.grid.node_coordinate(k, first[k]) + half[k];
   }
-  return is_near_wall(state, model, centre, norm(half));
+  return is_near_rigid_face(state, model, centre, norm(half) + longest_reach(model));
 }
 
-/// Does a tile reach own nodes, of some block around it, that hold several layers or are near a wall?
+/// Does a tile reach own nodes, of some block around it, that hold several layers or are near a rigid face?
 template <int Dim, class Shape>
 bool reaches_shared_nodes(const State<Dim>& state, std::size_t b) {
   const Block<Dim>& block = state.blocks.list[b];
   if (!block.has_particles()) return false;
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t c = block.neighbours[o];
-    if (c == no_block || (state.nodes.layers[c].node.size() < 2 && !state.nodes.layers[c].near_wall)) continue;
+    if (c == no_block || (state.nodes.layers[c].node.size() < 2 && !state.nodes.layers[c].near_face)) continue;
     IndexVector<Dim> step = neighbour_step<Dim>(o);
     for (int k = 0; k < Dim; ++k) step[k] = -step[k];
     if (!Overlap<Dim, Shape>(step, block.touched).empty) return true;
@@ -359,7 +359,7 @@ void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::
   const bool several = cracked || model.fields.size() > 1;
   parallel_for(blocks, model.threads, [&](std::size_t b) {
     find_node_layers<Dim, Shape>(state, b);
-    if (several) nodes.layers[b].near_wall = block_is_near_wall(state, model, b);
+    if (several) nodes.layers[b].near_face = block_is_near_face(state, model, b);
   });
   if (several) {
     parallel_for(blocks, model.threads, [&](std::size_t b) { nodes.layers[b].sums_contact = reaches_shared_nodes<Dim, Shape>(state, b); });

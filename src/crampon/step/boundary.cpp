@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "crampon/step/rigid_faces.hpp"
+
 namespace crampon {
 
 namespace {
@@ -22,18 +24,6 @@ bool is_overruled(const std::vector<FixedComponent>& fixed, std::size_t i) {
     if (fixed[j].active) return true;
   }
   return false;
-}
-
-/// Of a point from the shape of a rigid body, m.
-template <int Dim>
-double distance_from(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x) {
-  const Vec<Dim> arm = x - pose.centre;
-  Vec<3> there;
-  for (std::size_t j = 0; j < Dim; ++j) {
-    there[j] = body.centre[j];
-    for (std::size_t k = 0; k < Dim; ++k) there[j] += pose.turn[k][j] * arm[k];
-  }
-  return body.shape->distance(there);
 }
 
 template <int Dim>
@@ -130,7 +120,7 @@ void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t 
   bool added = false;
   for (std::size_t r = 0; r < model.rigid_bodies.size(); ++r) {
     const RigidBody<Dim>& body = model.rigid_bodies[r];
-    if (!body.prescribes) continue;
+    if (!body.prescribes()) continue;
     const RigidMotion<Dim>& motion = state.rigid[r];
     if (distance_from(body, motion.start, middle_of_block(state, model, b)) > reach + half_diagonal_of_block(model.grid)) continue;
     for (int node = 0; node < block_nodes<Dim>; ++node) {

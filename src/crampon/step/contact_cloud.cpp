@@ -12,14 +12,22 @@ namespace {
 /// decide): all particles of a cloud count alike in a regression.
 constexpr double least_weight = 1e-10;
 
+/// Is a particle known to lie deep in its body, or is it none at all?
+template <int Dim>
+bool is_deep(const State<Dim>& state, const Model<Dim>& model, std::size_t p) {
+  return state.particles.is_padding(p) || model.surface[state.particles.id[p]] == Vec<Dim>{};
+}
+
 }  // namespace
 
 template <int Dim>
 template <class Shape>
-void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<bool>& wanted) {
+void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<bool>& wanted,
+                                Of of) {
   using T = Tile<Dim, Shape>;
   const Block<Dim>& own = state.blocks.list[block];
   const auto own_first = own.first_node();
+  std::vector<std::uint32_t> at_surface;
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t c = own.neighbours[o];
     if (c == no_block || state.nodes.layers[c].contact_packs.empty()) continue;
@@ -27,8 +35,16 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
     std::vector<int> layer_here;
     for (const Layer& layer : layers.tile) layer_here.push_back(layer_of<Dim>(state.nodes.layers[block].node, layer));
     const auto first = state.blocks.list[c].first_node();
+    if (of == Of::surface) {
+      at_surface.clear();
+      for (const std::uint32_t pack : layers.contact_packs) {
+        bool any = false;
+        for (std::size_t p = std::size_t{pack} * lanes; p < std::size_t{pack + 1} * lanes; ++p) any = any || !is_deep(state, model, p);
+        if (any) at_surface.push_back(pack);
+      }
+    }
     for_packs<Dim, Shape>(
-        state, model, c, layers.contact_packs,
+        state, model, c, of == Of::all ? layers.contact_packs : at_surface,
         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
           const Material<Dim>& material = model.materials[run.material];
           Pack F[Dim * Dim];
@@ -36,6 +52,7 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
           for (int l = 0; l < lanes; ++l) {
             const std::size_t p = std::size_t{pack} * lanes + l;
             if (state.particles.is_padding(p)) continue;
+            if (of == Of::surface && is_deep(state, model, p)) continue;
             for (int n = 0; n < T::stencil; ++n) {
               if (stencil.weight(n, l) < least_weight) continue;
               const PairTarget t = targets ? targets[l * T::stencil + n]
@@ -58,6 +75,8 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
               }
               CloudPoint<Dim> point;
               point.layer = layer_here[t.layer];
+              point.particle = static_cast<std::uint32_t>(p);
+              point.mirrored = t.mirrored;
               point.x = state.particles.position(p);
               point.S = stencil.weight(n, l);
               point.m = state.particles.mass(p) * point.S;
@@ -84,7 +103,7 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
 }
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE) \
-  template void ContactCloud<DIM>::collect<SHAPE>(const State<DIM>&, const Model<DIM>&, std::size_t, const std::vector<bool>&);
+  template void ContactCloud<DIM>::collect<SHAPE>(const State<DIM>&, const Model<DIM>&, std::size_t, const std::vector<bool>&, Of);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -13,6 +13,8 @@ namespace crampon {
 template <int Dim>
 struct CloudPoint {
   int layer = 0;                  ///< of the node's block
+  std::uint32_t particle = 0;     ///< its place among all
+  std::uint8_t mirrored = 0;      ///< bit k: x and F are those of its image across axis k
   GroupSet group = 0;             ///< at the node; set by who knows the groups
   Vec<Dim> x;                     ///< from the node, m; of a folded pair the mirror image
   double S = 0;                   ///< S_ip
@@ -37,9 +39,10 @@ struct CloudPoint {
 template <int Dim>
 class ContactCloud {
  public:
-  /// Collects what reaches the nodes for which wanted[node] holds.
+  /// Collects what reaches the nodes for which wanted[node] holds: all particles, or those that are not known to lie deep in their body.
+  enum class Of { all, surface };
   template <class Shape>
-  void collect(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<bool>& wanted);
+  void collect(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<bool>& wanted, Of of = Of::all);
   void clear() {
     for (auto& points : points_) points.clear();
   }

@@ -73,7 +73,7 @@ bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Di
   const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
   double depth = 0;  // of the node before a rigid face, in cells
   if (b.rigid) depth = model_.fields[b.field].edge.edge_distance(dot(b.x, pair.n) / (b.m * plane.h), plane);
-  if (depth >= deepest_held) return false;
+  if (depth >= deepest_held && model_.contact.scheme != ContactScheme::literal) return false;
   pair.volume_ratio = relative_volume(place);
   pair.gap = gap(model_.contact.material_detection, place, a, b, pair, pair.n);
   if (needs_area(*pair.law))
@@ -152,24 +152,6 @@ void FaceToFace<Dim>::look_back(const MeetingPlace<Dim>& place, const Face<Dim>&
   });
   pair.opening = apart(a, b) - deformed;
   pair.gap = dot(pair.opening, pair.n);  // an interface is closed at the start
-}
-
-template <int Dim>
-bool FaceToFace<Dim>::see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const {
-  const auto body = static_cast<std::size_t>(b.wall);
-  const WallView<Dim> view = model_.rigid_bodies[body].wall->seen_from(place.x, state_.rigid[body].start.centre);
-  Vec<Dim> n = -view.out;
-  pair.n = normalized(place.mirrors.mean(n));
-  if (pair.n == Vec<Dim>{}) return false;
-  const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
-  if (view.distance >= deepest_held * plane.h) return false;
-  const EdgeMap& edge = model_.fields[a.field].edge;
-  const double d = edge.edge_distance(-dot(a.x, pair.n) / (a.m * plane.h), plane);
-  pair.gap = d * plane.h + view.distance;
-  pair.by_gap = true;
-  if (needs_area(*pair.law)) pair.area = area_on_rigid(a, b, view.distance / plane.h, pair.n, plane) / place.mirrors.images;
-  if (needs_history(*pair.law)) pair.history = a.history / a.m;
-  return true;
 }
 
 template <int Dim>

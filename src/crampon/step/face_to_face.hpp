@@ -60,7 +60,6 @@ struct Face {
   double field_volume = -1;
   bool rigid = false;
   bool whole = false;  ///< meets faces on all sides of cracks
-  int wall = -1;       ///< rigid body that it is, and a wall
 
   void add(const Face& b) {
     groups |= b.groups;
@@ -109,8 +108,6 @@ class FaceToFace {
                     ContactPair<Dim>& pair);
   /// A pair that see_material has seen: where one body fills a corner of the other, it becomes several, one for each face of the corner.
   void part_corner(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, std::vector<ContactPair<Dim>>& pairs);
-  /// b is a wall, whose surface is known to the bit.
-  bool see_wall(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const;
   /// a above and b below a crack.
   bool see_across(const MeetingPlace<Dim>& place, const CrackAtNode<Dim>& crack, const Face<Dim>& a, const Face<Dim>& b,
                   ContactPair<Dim>& pair);

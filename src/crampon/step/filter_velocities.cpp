@@ -3,6 +3,7 @@
 #include "crampon/step/adjust_contact.hpp"
 #include "crampon/step/boundary.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/meet_faces.hpp"
 #include "crampon/step/packs.hpp"
 #include "crampon/step/tile_buffer.hpp"
 
@@ -81,7 +82,7 @@ void project_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer
 }
 
 template <int Dim, class Shape>
-void add_term(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+void gather_term(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   Nodes<Dim>& nodes = state.nodes;
   const BlockLayers<Dim>& layers = nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
@@ -93,7 +94,14 @@ void add_term(State<Dim>& state, const Model<Dim>& model, std::size_t b, double 
     p = deformable ? as_record<Dim>(nodes.velocity[i]) * splat(mass) - as_record<Dim>(leading<Dim>(p)) : splat(0.);
     p[Dim] = mass;
   });
+  start_meeting_faces(state, model, b, ContactTask::term);
+}
+
+template <int Dim>
+void add_term(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  Nodes<Dim>& nodes = state.nodes;
   adjust_contact(state, model, b, ContactTask::term, dt);
+  take_face_impulses(state, model, b, ContactTask::term, dt);
   clear_fixed_momenta(state, model, b);
   for_slots(state, model, b, [&](std::size_t i, bool) {
     const Pack p = nodes.momentum[i];
@@ -102,11 +110,13 @@ void add_term(State<Dim>& state, const Model<Dim>& model, std::size_t b, double 
   });
 }
 
+template void add_term<2>(State<2>&, const Model<2>&, std::size_t, double);
+template void add_term<3>(State<3>&, const Model<3>&, std::size_t, double);
 template void start_series<2>(State<2>&, const StepTransfer&, std::size_t, double);
 template void start_series<3>(State<3>&, const StepTransfer&, std::size_t, double);
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                          \
   template void project_term<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, const StepTransfer&, std::size_t, int); \
-  template void add_term<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);
+  template void gather_term<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "crampon/step/contact_cloud.hpp"
+#include "crampon/step/contact_groups.hpp"
 #include "crampon/step/cracks_between.hpp"
 #include "crampon/step/face_to_face.hpp"
 #include "crampon/step/instantiate.hpp"
@@ -12,22 +13,6 @@
 namespace crampon {
 
 namespace {
-
-/// Are fields on both sides one group? One after another, bonded pairs are pairs like others (N13, CONVENTIONS 14).
-template <int Dim>
-bool joins(const Model<Dim>& model, const ContactLawSpec& law) {
-  return std::holds_alternative<BondedContact>(law) && model.contact.pairs == ContactPairs::joint;
-}
-
-/// A signature without the cracks that join: fields of one material that agree in it move as one (CONVENTIONS 13, 14).
-template <int Dim>
-Signature without_joined(const Signature& s, const Model<Dim>& model) {
-  Signature out;
-  for (const CrackId c : s) {
-    if (!joins(model, model.law_across(c))) out.append(c);
-  }
-  return out;
-}
 
 template <int Dim, class Shape>
 class NodeFinder {
@@ -73,9 +58,6 @@ class NodeFinder {
   std::int64_t number_of(int node) const { return model_.grid.node_number(state_.blocks.list[b_].node(node)); }
   Vec<Dim> position_of(int node) const { return model_.grid.node_position(state_.blocks.list[b_].node(node)); }
   const Layer& layer(int l) const { return layers_.node[static_cast<std::size_t>(l)]; }
-  bool meets_others(const MaterialField& field) const {
-    return !field.rigid || !model_.rigid_bodies[static_cast<std::size_t>(field.body)].prescribes;
-  }
 
   /// Fields with mass and the groups that they form.
   void collect_fields(int node) {
@@ -83,24 +65,18 @@ class NodeFinder {
     std::vector<int>& present = present_;
     present.clear();
     for (std::size_t l = 0; l < layers_.node.size(); ++l) {
-      if (state_.nodes.momentum[layers_.slot(l, node)][Dim] > 0 && meets_others(model_.fields[layers_.node[l].field]))
+      if (state_.nodes.momentum[layers_.slot(l, node)][Dim] > 0 && model_.meets_at_nodes(model_.fields[layers_.node[l].field]))
         present.push_back(static_cast<int>(l));
     }
-    const std::size_t walls = present.empty() ? 0 : walls_about(node);
-    if (present.size() + walls < 2) return;
+    if (present.size() < 2) return;
     ContactNode<Dim> contact;
     contact.node = static_cast<std::uint16_t>(node);
     contact.number = number_of(node);
     contact.first_field = static_cast<std::uint32_t>(out_.fields.size());
     contact.first_group = static_cast<std::uint32_t>(out_.groups.size());
-    find_groups(present);
-    for (std::size_t w = 0; w < walls; ++w) {
-      ContactGroup<Dim> group;
-      group.m = 1;
-      group.rigid = group.wall = true;
-      group.body = walls_[w];
-      out_.groups.push_back(group);
-    }
+    const int groups = find_groups(layers_, model_, present, group_of_);
+    for (std::size_t i = 0; i < present.size(); ++i) out_.fields.push_back({present[i], group_of_[i]});
+    out_.groups.resize(out_.groups.size() + static_cast<std::size_t>(groups));
     contact.end_field = static_cast<std::uint32_t>(out_.fields.size());
     contact.end_group = static_cast<std::uint32_t>(out_.groups.size());
     if (contact.end_group - contact.first_group > most_groups) {  // more than any node can make sense of: left alone
@@ -110,47 +86,6 @@ class NodeFinder {
       return;
     }
     out_.nodes.push_back(contact);
-  }
-
-  /// Walls that material of this node may touch, into walls_; how many.
-  std::size_t walls_about(int node) {
-    walls_.clear();
-    if (!layers_.near_wall) return 0;
-    const Vec<Dim> x = position_of(node);
-    for (std::size_t body = 0; body < model_.rigid_bodies.size(); ++body) {
-      const auto& wall = model_.rigid_bodies[body].wall;
-      if (wall && wall->seen_from(x, state_.rigid[body].start.centre).distance < wall_reach(model_.grid))
-        walls_.push_back(static_cast<int>(body));
-    }
-    return walls_.size();
-  }
-
-  /// Fields on the same sides of all cracks that do not join are one group when a chain of bonded laws links them.
-  void find_groups(const std::vector<int>& present) {
-    std::vector<int> chain(present.size());
-    std::vector<Signature> reduced;
-    for (std::size_t i = 0; i < present.size(); ++i) {
-      chain[i] = static_cast<int>(i);
-      reduced.push_back(without_joined(layer(present[i]).cracks, model_));
-      for (std::size_t j = 0; j < i; ++j) {
-        const std::uint16_t a = layer(present[j]).field, b = layer(present[i]).field;
-        if (reduced[i] != reduced[j] || chain[i] == chain[j]) continue;
-        const bool bonded = joins(model_, model_.law_between(a, b)) && !model_.is_whole(a) && !model_.is_whole(b);
-        if (a != b && !bonded) continue;
-        const int low = std::min(chain[i], chain[j]), high = std::max(chain[i], chain[j]);
-        for (std::size_t k = 0; k <= i; ++k) {
-          if (chain[k] == high) chain[k] = low;
-        }
-      }
-    }
-    std::vector<int> group_of(present.size(), -1);
-    int groups = 0;
-    for (std::size_t i = 0; i < present.size(); ++i) {
-      int& group = group_of[static_cast<std::size_t>(chain[i])];
-      if (group < 0) group = groups++;
-      out_.fields.push_back({present[i], group});
-    }
-    out_.groups.resize(out_.groups.size() + static_cast<std::size_t>(groups));
   }
 
   void collect_cloud(bool everywhere) {
@@ -194,19 +129,9 @@ class NodeFinder {
       group.rigid = face.rigid;
       group.body = model_.fields[part.field].body;
     }
-    for (std::size_t g = 0; g < faces_.size(); ++g) {
-      const ContactGroup<Dim>& group = out_.groups[node.first_group + g];
-      if (!group.wall) continue;
-      Face<Dim>& face = faces_[g];
-      face.groups = only(static_cast<int>(g));
-      face.m = 1;
-      face.rigid = face.whole = true;
-      face.wall = group.body;
-      face.field = face.lowest_field = face.known_as = model_.rigid_bodies[static_cast<std::size_t>(group.body)].field;
-    }
     for (Face<Dim>& face : faces_) {
       for (const Face<Dim>& other : faces_) {
-        if (other.wall < 0) face.company |= other.groups;
+        face.company |= other.groups;
       }
     }
     tell_apart();
@@ -311,10 +236,10 @@ class NodeFinder {
     pair.name.field_a = a.known_as;
     pair.name.field_b = facing ? ContactName::all_others : b.known_as;
     pair.name.others = a.cracks;
-    if (!(b.wall >= 0 ? view_.see_wall(place_, a, b, pair) : view_.see_material(place_, a, b, other, pair))) return;
+    if (!view_.see_material(place_, a, b, other, pair)) return;
     const std::size_t first = out_.pairs.size();
     out_.pairs.push_back(pair);
-    if (!facing && b.wall < 0) view_.part_corner(place_, a, b, out_.pairs);
+    if (!facing) view_.part_corner(place_, a, b, out_.pairs);
     for (std::size_t q = first; q < out_.pairs.size(); ++q) out_.pairs[q].previous = previous_state(node.number, out_.pairs[q]);
   }
 
@@ -387,7 +312,7 @@ class NodeFinder {
   std::size_t b_;
   const BlockLayers<Dim>& layers_;
   ContactNodes<Dim>& out_;
-  std::vector<int> present_, walls_;
+  std::vector<int> present_, group_of_;
   ContactCloud<Dim>& cloud_;
   FaceToFace<Dim> view_;
   // Of the node at hand.
@@ -398,17 +323,6 @@ class NodeFinder {
 };
 
 }  // namespace
-
-template <int Dim>
-bool is_near_wall(const State<Dim>& state, const Model<Dim>& model, const Vec<Dim>& x, double reach) {
-  for (std::size_t body = 0; body < model.rigid_bodies.size(); ++body) {
-    const auto& wall = model.rigid_bodies[body].wall;
-    if (wall && wall->seen_from(x, state.rigid[body].start.centre).distance < reach + wall_reach(model.grid)) return true;
-  }
-  return false;
-}
-template bool is_near_wall<2>(const State<2>&, const Model<2>&, const Vec<2>&, double);
-template bool is_near_wall<3>(const State<3>&, const Model<3>&, const Vec<3>&, double);
 
 template <int Dim, class Shape>
 void find_contacts(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
@@ -429,6 +343,9 @@ void remember_contacts(State<Dim>& state) {
       }
     }
     state.memory.sides.insert(state.memory.sides.end(), scratch.contact.sides.begin(), scratch.contact.sides.end());
+  }
+  for (const ContactColumn<Dim>& column : state.face_contacts.columns) {
+    if (column.pair.state != ContactState::open) state.memory.entries.push_back({{column.name, column.pair.name}, column.pair.state});
   }
   state.memory.sort();
 }

@@ -6,10 +6,6 @@
 
 namespace crampon {
 
-/// Is x, m, within reach of a wall?
-template <int Dim>
-bool is_near_wall(const State<Dim>& state, const Model<Dim>& model, const Vec<Dim>& x, double reach = 0);
-
 /// After Task 1: the nodes with several fields, their groups, pairs, normals, gaps and areas, which hold for the whole step.
 template <int Dim, class Shape>
 void find_contacts(State<Dim>& state, const Model<Dim>& model, std::size_t block);

@@ -2,6 +2,7 @@
 /// What stays the same during a run: grid, laws, conditions, choices of the algorithm. SI throughout.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,7 +11,6 @@
 
 #include "crampon/contact/edge_map.hpp"
 #include "crampon/contact/friction.hpp"
-#include "crampon/contact/wall.hpp"
 #include "crampon/core/function.hpp"
 #include "crampon/core/options.hpp"
 #include "crampon/crack/symmetry_fold.hpp"
@@ -52,11 +52,14 @@ struct RigidBody {
   std::vector<ValueFunction> velocity;  ///< of its centre, per component, m/s; of time; empty: none
   std::vector<ValueFunction> spin;      ///< about its centre, rad/s: one in 2D, three in 3D; of time; empty: none
   Vec<Dim> centre;                      ///< at the start, m
-  std::optional<Wall<Dim>> wall;        ///< it is this, and has no particles
+  ShapePtr shape;                       ///< as it was at the start
   std::uint16_t field = 0;              ///< its velocity field
-  bool prescribes = false;              ///< gives its velocity to the nodes in its shape, instead of meeting what is there
-  ShapePtr shape;                       ///< ... as it was at the start; of these alone
-  std::uint16_t condition = 0;          ///< ... as this condition, whose components say which
+  /// face: meets others at the face of its shape. particles: as a field of particles among others (N13 sec. 3). nodes: gives its velocity to
+  /// the nodes in its shape, instead of meeting what is there.
+  enum class Acts { face, particles, nodes } acts = Acts::face;
+  bool has_particles = true;    ///< else it is a wall
+  std::uint16_t condition = 0;  ///< nodes: as this condition, whose components say which
+  bool prescribes() const { return acts == Acts::nodes; }
 };
 
 /// Velocity prescribed on nodes, or a symmetry plane.
@@ -103,6 +106,12 @@ struct Model {
   std::vector<ContactLawSpec> field_laws{1};  ///< [field][field], symmetric
   std::vector<Vec<Dim>> field_normals{1};     ///< [field][field]: normal from the first to the second; zero: to be found
   std::vector<RigidBody<Dim>> rigid_bodies;
+  /// By number of a particle: from its middle at the start to the nearest point of its body's surface, m. Zero: deep in its body; not a number:
+  /// nobody knows (particles from a file). Kept where rigid faces ask for it.
+  std::vector<Vec<Dim>> surface;
+  std::vector<ShapePtr> shapes;  ///< of bodies, as they were at the start; null: nobody knows
+  /// By number of a particle: columns of the inverse of its deformation gradient at the start; empty where none bears stress from the start.
+  std::vector<std::array<Vec<Dim>, Dim>> undeformed;
   std::vector<std::string> bodies;
   std::vector<ContactLawSpec> crack_laws;  ///< per crack
   std::vector<CrackTraction> tractions;    ///< per crack
@@ -140,7 +149,15 @@ struct Model {
 
   StepTransfer transfer_in(std::int64_t step) const { return step_transfer(transfer, stress_update, positions, step); }
   bool any_prescribing_body() const {
-    return std::any_of(rigid_bodies.begin(), rigid_bodies.end(), [](const RigidBody<Dim>& body) { return body.prescribes; });
+    return std::any_of(rigid_bodies.begin(), rigid_bodies.end(), [](const RigidBody<Dim>& body) { return body.prescribes(); });
+  }
+  bool any_rigid_face() const {
+    return std::any_of(rigid_bodies.begin(), rigid_bodies.end(),
+                       [](const RigidBody<Dim>& body) { return body.acts == RigidBody<Dim>::Acts::face; });
+  }
+  /// Does a field meet others at nodes, by its particles?
+  bool meets_at_nodes(const MaterialField& field) const {
+    return !field.rigid || rigid_bodies[static_cast<std::size_t>(field.body)].acts == RigidBody<Dim>::Acts::particles;
   }
   bool any_body_force() const { return !body_force.empty(); }
   bool any_tractions() const {

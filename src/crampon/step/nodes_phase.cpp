@@ -5,7 +5,10 @@
 #include "crampon/step/boundary.hpp"
 #include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/find_contacts.hpp"
+#include "crampon/step/find_face_contacts.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/meet_faces.hpp"
+#include "crampon/step/rigid_faces.hpp"
 
 namespace crampon {
 
@@ -91,33 +94,36 @@ template <int Dim, class Shape>
 void find_shared_nodes(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   BlockLayers<Dim>& layers = state.nodes.layers[b];
   layers.shared.clear();
-  if (layers.node.size() < 2 && !layers.near_wall) return;
+  if (layers.node.size() < 2 && !layers.near_face) return;
   assemble_momentum<Dim, Shape>(state, b);
   layers.shared.assign(block_nodes<Dim>, 0);
   for (int n = 0; n < block_nodes<Dim>; ++n) {
     int fields = 0;
     for (std::size_t l = 0; l < layers.node.size(); ++l) fields += state.nodes.momentum[layers.slot(l, n)][Dim] > 0;
-    const bool at_wall =
-        fields == 1 && layers.near_wall && is_near_wall(state, model, model.grid.node_position(state.blocks.list[b].node(n)));
+    const bool at_wall = fields == 1 && layers.near_face &&
+                         is_near_rigid_face(state, model, model.grid.node_position(state.blocks.list[b].node(n)), longest_reach(model));
     layers.shared[static_cast<std::size_t>(n)] = fields > 1 || at_wall;
   }
 }
 
 template <int Dim, class Shape>
-void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+void gather_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   if (state.nodes.layers[b].shared.empty()) assemble_momentum<Dim, Shape>(state, b);
   if (model.any_contact()) {
     assemble_contact_sums<Dim, Shape>(state, b);
     find_contacts<Dim, Shape>(state, model, b);
+    find_face_nodes<Dim, Shape>(state, model, b);
   }
   impose_symmetry(state, model, b);
-  if (model.boundary_order == BoundaryOrder::contact_first) {
-    adjust_contact(state, model, b, ContactTask::two, dt);  // N13 sec. 2.3
-    impose_start_momenta(state, model, b);
-  } else {
-    impose_start_momenta(state, model, b);  // N03 Task 2
-    adjust_contact(state, model, b, ContactTask::two, dt);
-  }
+  if (model.boundary_order == BoundaryOrder::boundary_first) impose_start_momenta(state, model, b);  // N03 Task 2
+  start_meeting_faces(state, model, b, ContactTask::two);
+}
+
+template <int Dim>
+void settle_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  adjust_contact(state, model, b, ContactTask::two, dt);
+  take_face_impulses(state, model, b, ContactTask::two, dt);
+  if (model.boundary_order == BoundaryOrder::contact_first) impose_start_momenta(state, model, b);  // N13 sec. 2.3
   find_velocities(state, b);
 }
 
@@ -127,25 +133,45 @@ void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, d
   const BlockLayers<Dim>& layers = nodes.layers[b];
   NodalVector<Dim> gravity = splat_as<NodalVector<Dim>>(0.);
   for (int k = 0; k < Dim; ++k) gravity[k] = body_force[k];
-  const bool accounts = damping != 0 || model.any_body_force();
-  static thread_local std::vector<NodalVector<Dim>> start_velocity;
   const std::size_t first = layers.slot(0, 0), end = layers.slot(layers.node.size(), 0);
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
     assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_force, &nodes.force[layers.slot(l, 0)]);
   }
   add_tractions(state, b);
-  if (accounts) {
-    start_velocity.resize(end - first);
+  if (damping != 0 || model.any_body_force()) {
     for_deformable(state, model, b, [&](std::size_t i) {
       const Pack p = nodes.momentum[i];
       nodes.force[i] += splat_as<NodalVector<Dim>>(p[Dim]) * gravity - splat_as<NodalVector<Dim>>(damping) * leading<Dim>(p);
-      start_velocity[i - first] = nodes.velocity[i];
     });
   }
   impose_forces(state, model, b, dt);
   for (std::size_t i = first; i < end; ++i) nodes.momentum[i] += as_record<Dim>(splat_as<NodalVector<Dim>>(dt) * nodes.force[i]);
+  start_meeting_faces(state, model, b, ContactTask::four);
+}
+
+template <int Dim>
+void settle_updated_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const Vec<Dim>& body_force,
+                            double damping) {
   adjust_contact(state, model, b, ContactTask::four, dt);
+  take_face_impulses(state, model, b, ContactTask::four, dt);
+  Nodes<Dim>& nodes = state.nodes;
+  const BlockLayers<Dim>& layers = nodes.layers[b];
+  const bool accounts = damping != 0 || model.any_body_force();
+  if (accounts) {
+    BlockLedger<Dim>& ledger = state.scratch[b].ledger;
+    for_deformable(state, model, b, [&](std::size_t i) {
+      const Pack p = nodes.momentum[i];
+      const double m = p[Dim];
+      const NodalVector<Dim> v_start = nodes.velocity[i];
+      const NodalVector<Dim> v = 0.5 * (v_start + leading<Dim>(p * splat(m > 0 ? 1 / m : 0.)));
+      for (int k = 0; k < Dim; ++k) {
+        ledger.body_work += dt * m * body_force[k] * v[k];
+        ledger.damping += dt * damping * m * v_start[k] * v[k];
+      }
+    });
+  }
   const bool strains_follow = model.stress_update == StressUpdate::usl;  // the others find velocities anew before they are read again
+  const std::size_t first = layers.slot(0, 0), end = layers.slot(layers.node.size(), 0);
   for (std::size_t i = first; i < end; ++i) {
     const Pack p = nodes.momentum[i];
     const double inverse = p[Dim] > 0 ? 1 / p[Dim] : 0.;
@@ -158,16 +184,6 @@ void update_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, d
       nodes.motion[i].r[1] = a;
     }
   }
-  if (!accounts) return;
-  BlockLedger<Dim>& ledger = state.scratch[b].ledger;
-  for_deformable(state, model, b, [&](std::size_t i) {
-    const double m = nodes.momentum[i][Dim];
-    const NodalVector<Dim> v = 0.5 * (start_velocity[i - first] + nodes.velocity[i]);
-    for (int k = 0; k < Dim; ++k) {
-      ledger.body_work += dt * m * gravity[k] * v[k];
-      ledger.damping += dt * damping * m * start_velocity[i - first][k] * v[k];
-    }
-  });
 }
 
 template <int Dim>
@@ -181,28 +197,36 @@ void account_body_force(State<Dim>& state, const Model<Dim>& model, std::size_t 
 }
 
 template <int Dim, class Shape>
-void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+void gather_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   assemble_momentum<Dim, Shape>(state, b);
   impose_symmetry(state, model, b);
-  if (model.boundary_order == BoundaryOrder::contact_first) {
-    adjust_contact(state, model, b, ContactTask::six, dt);
-    impose_end_momenta(state, model, b);  // CONVENTIONS 28
-  } else {
-    impose_end_momenta(state, model, b);
-    adjust_contact(state, model, b, ContactTask::six, dt);
-  }
+  if (model.boundary_order == BoundaryOrder::boundary_first) impose_end_momenta(state, model, b);
+  start_meeting_faces(state, model, b, ContactTask::six);
+}
+
+template <int Dim>
+void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  adjust_contact(state, model, b, ContactTask::six, dt);
+  take_face_impulses(state, model, b, ContactTask::six, dt);
+  if (model.boundary_order == BoundaryOrder::contact_first) impose_end_momenta(state, model, b);  // CONVENTIONS 28
   find_velocities(state, b);
   if (model.positions == PositionUpdate::strain) move_with_velocities(state, b);
 }
 
-template void account_body_force<2>(State<2>&, const Model<2>&, std::size_t, double, const Vec<2>&);
-template void account_body_force<3>(State<3>&, const Model<3>&, std::size_t, double, const Vec<3>&);
+#define CRAMPON_INSTANTIATE(DIM)                                                                                           \
+  template void account_body_force<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double, const Vec<DIM>&);             \
+  template void settle_start_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double);                            \
+  template void settle_updated_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double, const Vec<DIM>&, double); \
+  template void settle_end_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double);
+CRAMPON_INSTANTIATE(2)
+CRAMPON_INSTANTIATE(3)
+#undef CRAMPON_INSTANTIATE
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                   \
   template void assemble_momentum<DIM, SHAPE>(State<DIM>&, std::size_t);                                                  \
   template void find_shared_nodes<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                               \
-  template void settle_start_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);                    \
+  template void gather_start_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                            \
   template void update_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const Vec<DIM>&, double); \
-  template void settle_end_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);
+  template void gather_end_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

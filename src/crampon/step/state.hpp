@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "crampon/contact/face_contact.hpp"
 #include "crampon/contact/memory.hpp"
 #include "crampon/contact/node_solve.hpp"
 #include "crampon/crack/traction/history.hpp"
@@ -157,6 +158,7 @@ struct BlockScratch {
   AlignedArray<NodalVector<Dim>> loads;  ///< forces of loads on the tile, all layers, N; only where there are any
   std::vector<NodalForce<Dim>> tractions;
   ContactNodes<Dim> contact;
+  FaceNodes<Dim> face_nodes;
   BlockLedger<Dim> ledger;
   BlockHealth health;
 };
@@ -183,6 +185,7 @@ struct State {
   ParticlePlaces places;
   Nodes<Dim> nodes;
   std::vector<BlockScratch<Dim>> scratch;  ///< per block
+  FaceContacts<Dim> face_contacts;
   ContactMemory memory;
   std::vector<CrackTractionState<Dim>> tractions;  ///< per crack
   FaceStates<Dim> faces;

@@ -59,7 +59,7 @@ void note_contact_without_fields(const Start<Dim>& start, Notes& notes) {
   const auto deformable = std::count_if(fields.begin(), fields.end(), [](const MaterialField& f) { return !f.rigid; });
   if (stated.empty() || deformable > 1) return;
   const bool any_rigid = std::any_of(start.model.rigid_bodies.begin(), start.model.rigid_bodies.end(),
-                                     [](const RigidBody<Dim>& body) { return !body.prescribes; });
+                                     [](const RigidBody<Dim>& body) { return !body.prescribes(); });
   const bool several = problem.bodies.size() > 1;
   if (any_rigid && (stated.front() != "default" || !several || !any_seem_to_meet(start))) return;
   std::string names;

@@ -73,8 +73,10 @@ void note_overlapping_bodies(const Start<Dim>& start, Notes& notes) {
            fmt::format("the bodies \"{}\" and \"{}\" overlap: {}{} of the {} particles of \"{}\" ({}, {:.2g} % of it) lie in \"{}\"",
                        first.name(), second.name(), inside.sampled ? "about " : "", inside.count, of->particles().size(), of->name(),
                        measure_text<Dim>(inside.measure), 100 * inside.measure / of->measure(), in->name()),
-           rigid ? "contact keeps bodies from coming closer and does not push them apart" : "the material there counts twice",
-           rigid ? "move one of them" : "move one of them, or cut it out of the other (kind = \"difference\")"});
+           rigid ? "contact acts at the surface of a body, and material inside a rigid one does not feel it"
+                 : "the material there counts twice",
+           rigid ? "move one of them, or cut the hole that the rigid one fills (kind = \"difference\")"
+                 : "move one of them, or cut it out of the other (kind = \"difference\")"});
     }
   }
 }

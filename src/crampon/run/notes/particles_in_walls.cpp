@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "crampon/run/notes/notes.hpp"
+#include "crampon/step/rigid_faces.hpp"
 
 namespace crampon {
 
@@ -14,8 +15,7 @@ void note_particles_in_walls(const Start<Dim>& start, Notes& notes) {
     for (std::size_t b = 0; b < start.problem.bodies.size(); ++b) {
       const BodySpace<Dim>& body = start.bodies[b];
       if (std::holds_alternative<NoContact>(model.law_between(body.field(), wall.field))) continue;
-      for (const auto& p : body.particles())
-        inside += wall.wall->seen_from(p.x, start.state.rigid[r].start.centre).distance < -model.grid.smallest_cell();
+      for (const auto& p : body.particles()) inside += distance_from(wall, start.state.rigid[r].start, p.x) < -model.grid.smallest_cell();
     }
     if (inside == 0) continue;
     notes.push_back({start.problem.walls[w].location,

@@ -1,0 +1,15 @@
+#pragma once
+/// What rigid faces ask of the bodies that they meet: where surfaces are before particles.
+
+#include "crampon/input/problem.hpp"
+#include "crampon/run/build_bodies.hpp"
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// Fills Model::surface, shapes and undeformed, once particles have the stress that they bear from the start. Nothing without rigid faces.
+template <int Dim>
+void keep_surfaces(const Problem& problem, const BuiltBodies<Dim>& bodies, const State<Dim>& state, Model<Dim>& model);
+
+}  // namespace crampon

@@ -1,0 +1,86 @@
+#pragma once
+/// What contact at nodes and contact with rigid faces have in common: rules, the change of a node, and what is booked.
+
+#include <algorithm>
+#include <cmath>
+
+#include "crampon/contact/interface.hpp"
+#include "crampon/contact/node_solve.hpp"
+#include "crampon/contact/response.hpp"
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+template <int Dim>
+ContactRules contact_rules(const Model<Dim>& model, ContactTask task, double dt) {
+  const auto& contact = model.contact;
+  ContactRules rules;
+  rules.task = task;
+  rules.dt = dt;
+  rules.literal = contact.scheme == ContactScheme::literal;
+  rules.volume_for_cracks = contact.detection == ContactDetection::volume;
+  rules.volume_for_materials = contact.material_detection == ContactDetection::volume;
+  rules.volume_separated = contact.volume_separated;
+  rules.volume_contact = contact.volume_contact;
+  rules.require_approach = contact.require_approach;
+  rules.sequential = contact.pairs == ContactPairs::sequential;
+  rules.hold = 0.25 * model.grid.smallest_cell();  // well above what gaps err by (docs/theory/contact.md, detection)
+  return rules;
+}
+
+/// Prescribed components stay in Task 4 (N13 sec. 2.5), and in the other tasks where nothing imposes them again after contact.
+template <int Dim>
+bool fixes_before_contact(const Model<Dim>& model, ContactTask task) {
+  return task == ContactTask::four || task == ContactTask::term || model.boundary_order == BoundaryOrder::boundary_first;
+}
+
+/// The only two ways in which contact changes a node (STYLE, invariants): Tasks 2 and 6 change momentum alone, and Task 4 momentum and force
+/// together (N13 sec. 2.5).
+template <int Dim>
+void change_node(Nodes<Dim>& nodes, std::size_t i, const Vec<Dim>& dp, ContactTask task, double dt) {
+  for (int k = 0; k < Dim; ++k) nodes.momentum[i][k] += dp[k];
+  if (task != ContactTask::four) return;
+  for (int k = 0; k < Dim; ++k) nodes.force[i][k] += dp[k] / dt;
+}
+
+/// What Task 4 has given along the face where it slips.
+template <int Dim>
+Vec<Dim> rubbing(const ContactPair<Dim>& pair) {
+  if (pair.state != ContactState::slip || holds_as_interface(pair)) return {};
+  return pair.J - pair.n * dot(pair.J, pair.n);
+}
+
+/// Work that friction takes in a step: its impulse times the mean slip (docs/theory/contact.md, energy). The slip is that of the particles,
+/// which carry the mass, in the mean about the node: w_start before and `w_end` after they have moved. Nodal velocities of Task 4 grow
+/// without bound where a node holds little mass; what particles take of them does not.
+template <int Dim>
+double friction_work(const ContactPair<Dim>& pair, const Vec<Dim>& w_end) {
+  const double share = pair.is_virtual() ? 0.5 : 1;  // there every face is met from both of its sides
+  return share * std::fmax(-0.5 * dot(pair.rubbing, pair.w_start + w_end), 0.);
+}
+
+/// The distance that a pair which weakens by slip has slipped in the step, after Task 4 has left w, m/s.
+template <int Dim>
+void note_slip(ContactPair<Dim>& pair, const Vec<Dim>& w, double dt) {
+  if (!std::holds_alternative<SlipWeakeningContact>(*pair.law) || pair.state != ContactState::slip) return;
+  const Vec<Dim> mean = (w + pair.w_settled) * 0.5;
+  pair.history_gain = norm(mean - pair.n * dot(mean, pair.n)) * dt;
+}
+
+/// What a rigid body gives to the others in Task 4: F, N, and its moment about the body's centre.
+template <int Dim>
+void book_reaction(BlockLedger<Dim>& ledger, std::uint16_t body, const RigidPose<Dim>& pose, const Vec<Dim>& x, const Vec<Dim>& F) {
+  if (F == Vec<Dim>{}) return;
+  auto at = std::find_if(ledger.rigid.begin(), ledger.rigid.end(), [&](const auto& r) { return r.body == body; });
+  if (at == ledger.rigid.end()) at = ledger.rigid.insert(ledger.rigid.end(), {body, {}});
+  const Vec<Dim> r = x - pose.centre;
+  at->on_material.force += F;
+  at->on_material.torque[2] += r[0] * F[1] - r[1] * F[0];
+  if constexpr (Dim == 3) {
+    at->on_material.torque[0] += r[1] * F[2] - r[2] * F[1];
+    at->on_material.torque[1] += r[2] * F[0] - r[0] * F[2];
+  }
+}
+
+}  // namespace crampon

@@ -1,0 +1,346 @@
+#include "crampon/step/meet_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crampon/contact/pair_response.hpp"
+#include "crampon/core/parallel.hpp"
+#include "crampon/step/boundary.hpp"
+#include "crampon/step/contact_booking.hpp"
+
+namespace crampon {
+
+namespace {
+
+constexpr int most_sweeps = 200;  // as at nodes (contact/node_solve.cpp)
+
+/// Momentum of a group over its mass, m/s.
+template <int Dim>
+Vec<Dim> velocity_of(const Nodes<Dim>& nodes, const FaceNodes<Dim>& faces, const FaceGroup<Dim>& group) {
+  Vec<Dim> p;
+  for (std::uint32_t s = group.first_slot; s < group.end_slot; ++s) {
+    for (int k = 0; k < Dim; ++k) p[k] += nodes.momentum[faces.slots[s]][k];
+  }
+  return p * (1 / group.m);
+}
+
+template <int Dim>
+const RigidPose<Dim>& pose_in(const State<Dim>& state, std::size_t body, ContactTask task) {
+  return task == ContactTask::two ? state.rigid[body].start : state.rigid[body].end;
+}
+
+/// A node with pairs of its own, of which some group meets a face.
+template <int Dim>
+struct PairsAtFace {
+  std::uint32_t block = 0;
+  const ContactNode<Dim>* node = nullptr;
+  std::vector<std::pair<int, FaceGroup<Dim>*>> faces;  ///< group of the node, and the same as the faces know it
+  std::vector<Vec<Dim>> p;                             ///< of its groups without contact, kg m/s
+  ContactRules rules;
+};
+
+/// The columns of one set and the pairs of the nodes in them: each against the others as they are now, until nothing changes.
+template <int Dim>
+class SetOfColumns {
+ public:
+  SetOfColumns(State<Dim>& state, const Model<Dim>& model, const ContactRules& rules, std::size_t set)
+      : state_(state),
+        model_(model),
+        rules_(rules),
+        faces_(state.face_contacts),
+        begin_(faces_.columns.data() + faces_.first_column[set]),
+        end_(faces_.columns.data() + faces_.first_column[set + 1]) {}
+
+  /// Returns false when it does not converge.
+  bool run() {
+    for (ContactColumn<Dim>* c = begin_; c != end_; ++c) start(*c);
+    find_pairs();
+    const bool solved = sweep();
+    for (PairsAtFace<Dim>& at : pairs_) {
+      ContactGroup<Dim>* groups = groups_of(at);
+      for (std::size_t g = 0; g < at.p.size(); ++g) groups[g].p = at.p[g];
+    }
+    for (ContactColumn<Dim>* c = begin_; c != end_; ++c) c->w_now = relative_velocity(*c);
+    return solved;
+  }
+
+ private:
+  bool sweep() {
+    if (end_ - begin_ == 1 && pairs_.empty()) {
+      change(*begin_);
+      return true;
+    }
+    double most = 0;
+    bool solved = true;
+    for (int n = 0; n < most_sweeps; ++n) {
+      most = 0;
+      solved = true;
+      for (PairsAtFace<Dim>& at : pairs_) most = std::fmax(most, change(at, solved));
+      for (ContactColumn<Dim>* c = begin_; c != end_; ++c) most = std::fmax(most, change(*c));
+      if (most <= 1e-13 * largest_) return solved;
+    }
+    return solved && most <= 1e-8 * largest_;  // slow, but near enough
+  }
+
+  ContactGroup<Dim>* groups_of(const PairsAtFace<Dim>& at) { return state_.scratch[at.block].contact.groups.data() + at.node->first_group; }
+
+  /// The nodes of the set that have pairs.
+  void find_pairs() {
+    std::vector<std::pair<std::uint32_t, std::uint16_t>> nodes;
+    for (ContactColumn<Dim>* c = begin_; c != end_; ++c) {
+      for (std::uint32_t i = c->first; i < c->end; ++i) {
+        FaceNodes<Dim>& faces = state_.scratch[faces_.parts[i].block].face_nodes;
+        const FaceGroup<Dim>& group = faces.groups[faces.parts[faces_.parts[i].part].group];
+        if (group.contact_group >= 0) nodes.emplace_back(faces_.parts[i].block, group.node);
+      }
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    for (const auto& [block, number] : nodes) {
+      const ContactNodes<Dim>& contacts = state_.scratch[block].contact;
+      PairsAtFace<Dim> at;
+      at.block = block;
+      at.node = &*std::lower_bound(contacts.nodes.begin(), contacts.nodes.end(), number,
+                                   [](const ContactNode<Dim>& c, std::uint16_t n) { return c.node < n; });
+      if (at.node->first_pair == at.node->end_pair) continue;
+      at.rules = rules_;
+      at.rules.fixed_axes = fixes_before_contact(model_, rules_.task) ? fixed_axes(state_, block, number) : 0u;
+      at.p.resize(at.node->end_group - at.node->first_group);
+      for (std::uint32_t f = at.node->first_field; f < at.node->end_field; ++f) {
+        const Pack& p = state_.nodes.momentum[state_.nodes.layers[block].slot(contacts.fields[f].layer, number)];
+        for (int k = 0; k < Dim; ++k) at.p[static_cast<std::size_t>(contacts.fields[f].group)][k] += p[k];
+      }
+      for (FaceGroup<Dim>& group : state_.scratch[block].face_nodes.groups) {
+        if (group.node == number && group.contact_group >= 0)
+          at.faces.emplace_back(group.contact_group - static_cast<int>(at.node->first_group), &group);
+      }
+      pairs_.push_back(std::move(at));
+    }
+  }
+
+  /// Pairs of a node against what the faces give. Returns by how much momenta change, kg m/s.
+  double change(PairsAtFace<Dim>& at, bool& solved) {
+    ContactNodes<Dim>& contacts = state_.scratch[at.block].contact;
+    ContactGroup<Dim>* groups = groups_of(at);
+    for (std::size_t g = 0; g < at.p.size(); ++g) groups[g].p = at.p[g];
+    for (const auto& [g, face] : at.faces) groups[g].p += face->dp;
+    solved = solve_contact<Dim>(at.rules, groups, static_cast<int>(at.p.size()), contacts.pairs.data() + at.node->first_pair,
+                                static_cast<int>(at.node->end_pair - at.node->first_pair)) &&
+             solved;
+    double most = 0;
+    for (const auto& [g, face] : at.faces) {
+      const Vec<Dim> v = groups[g].velocity();
+      most = std::fmax(most, norm(v - face->v) * face->m);
+      largest_ = std::fmax(largest_, norm(v) * face->m);
+      face->v = v;
+    }
+    return most;
+  }
+
+  template <class F>
+  void for_parts(const ContactColumn<Dim>& column, F f) {
+    for (std::uint32_t i = column.first; i < column.end; ++i) {
+      FaceNodes<Dim>& nodes = state_.scratch[faces_.parts[i].block].face_nodes;
+      FacePart<Dim>& part = nodes.parts[faces_.parts[i].part];
+      f(part, nodes.groups[part.group]);
+    }
+  }
+
+  /// Velocity of the rigid body against the material at the face, m/s: by the nodes' parts of it.
+  Vec<Dim> relative_velocity(const ContactColumn<Dim>& column) {
+    const RigidPose<Dim>& pose = pose_in(state_, column.body, rules_.task);
+    Vec<Dim> w;
+    for_parts(column, [&](const FacePart<Dim>& part, const FaceGroup<Dim>& group) {
+      w += ((rules_.task == ContactTask::term ? Vec<Dim>{} : pose.velocity_at(group.x)) - group.v) * (part.w / column.w);
+    });
+    return w;
+  }
+
+  /// The mass that an impulse at the face moves, kg; none where nothing can move.
+  double mass_before(const ContactColumn<Dim>& column) {
+    double inverse = 0;
+    for_parts(column, [&](const FacePart<Dim>& part, const FaceGroup<Dim>& group) {
+      const double share = part.w / column.w;
+      inverse += share * share * dot(column.pair.n, without_axes(column.pair.n, group.fixed_axes)) / group.m;
+    });
+    return inverse > 0 ? 1 / inverse : 0.;
+  }
+
+  void add(ContactColumn<Dim>& column, const Vec<Dim>& J) {
+    for_parts(column, [&](FacePart<Dim>& part, FaceGroup<Dim>& group) {
+      const Vec<Dim> dp = without_axes(J * (-part.w / column.w), group.fixed_axes);
+      part.dp += dp;
+      group.dp += dp;
+      group.v += dp * (1 / group.m);
+    });
+  }
+
+  void start(ContactColumn<Dim>& column) {
+    column.pair.J = {};
+    const double m = mass_before(column);
+    for_parts(column, [&](FacePart<Dim>& part, const FaceGroup<Dim>& group) {
+      part.dp = {};
+      largest_ = std::fmax(largest_, m * norm(group.v));
+    });
+    const Vec<Dim> w = relative_velocity(column);
+    largest_ = std::fmax(largest_, m * norm(w));
+  }
+
+  /// Returns by how much the impulse changes, kg m/s.
+  double change(ContactColumn<Dim>& column) {
+    ContactPair<Dim>& pair = column.pair;
+    const double m = mass_before(column);
+    if (m == 0) return 0;
+    const Vec<Dim> before = pair.J;
+    if (before != Vec<Dim>{}) add(column, -before);
+    pair.J = respond(rules_, pair, m, relative_velocity(column)).J;
+    add(column, pair.J);
+    if (rules_.task == ContactTask::four) pair.w_end = dot(relative_velocity(column), pair.n);
+    largest_ = std::fmax(largest_, norm(pair.J));
+    return norm(pair.J - before);
+  }
+
+  State<Dim>& state_;
+  const Model<Dim>& model_;
+  const ContactRules& rules_;
+  std::vector<PairsAtFace<Dim>> pairs_;
+  FaceContacts<Dim>& faces_;
+  ContactColumn<Dim>*begin_, *end_;
+  double largest_ = 0;
+};
+
+/// Relative velocity at a face of what the nodes had before contact of the task, m/s.
+template <int Dim>
+Vec<Dim> approach(const State<Dim>& state, const ContactColumn<Dim>& column, ContactTask task) {
+  const RigidPose<Dim>& pose = pose_in(state, column.body, task);
+  Vec<Dim> w;
+  for (std::uint32_t i = column.first; i < column.end; ++i) {
+    const auto& at = state.face_contacts.parts[i];
+    const FaceNodes<Dim>& nodes = state.scratch[at.block].face_nodes;
+    const FacePart<Dim>& part = nodes.parts[at.part];
+    const FaceGroup<Dim>& group = nodes.groups[part.group];
+    w += (pose.velocity_at(group.x) - group.before) * (part.w / column.w);
+  }
+  return w;
+}
+
+/// After the columns of a set are solved: what their pairs keep, and the work of friction, J.
+template <int Dim>
+double close_pair(const State<Dim>& state, ContactColumn<Dim>& column, const Vec<Dim>& w, ContactTask task, double dt,
+                  bool re_extrapolates) {
+  ContactPair<Dim>& pair = column.pair;
+  switch (task) {
+    case ContactTask::two:
+      pair.w_start = approach(state, column, task);
+      pair.w_settled = w;
+      return 0;
+    case ContactTask::four:
+      pair.rubbing = rubbing(pair);
+      note_slip(pair, w, dt);
+      // Without Task 6 the velocity of the particles at the end is not known: that at the start stands for both.
+      return re_extrapolates ? 0. : friction_work(pair, pair.w_start);
+    case ContactTask::six:
+      return friction_work(pair, approach(state, column, task));
+    case ContactTask::term:
+      break;
+  }
+  return 0;
+}
+
+/// What particles are to add to their memory of contact waits on the nodes in the place of the contact sums, which have done their work:
+/// {gain, 1} where there is contact, else zeros.
+template <int Dim>
+void forget_gains(State<Dim>& state, std::size_t b) {
+  const std::size_t count = state.nodes.layers[b].node.size() * block_nodes<Dim>;
+  for (std::size_t i = 0; i < count; ++i) state.nodes.contact[state.nodes.layers[b].slot(0, 0) + i].r[0] = splat(0.);
+}
+template <int Dim>
+void put_gain(State<Dim>& state, const ContactColumn<Dim>& column) {
+  if (!needs_history(*column.pair.law) || column.pair.state == ContactState::open) return;
+  for (std::uint32_t i = column.first; i < column.end; ++i) {
+    const auto& at = state.face_contacts.parts[i];
+    const FaceNodes<Dim>& nodes = state.scratch[at.block].face_nodes;
+    const FaceGroup<Dim>& group = nodes.groups[nodes.parts[at.part].group];
+    for (std::uint32_t s = group.first_slot; s < group.end_slot; ++s)
+      state.nodes.contact[nodes.slots[s]].r[0] = Pack{column.pair.history_gain, 1., 0., 0.};
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void start_meeting_faces(State<Dim>& state, const Model<Dim>& model, std::size_t b, ContactTask task) {
+  if (task == ContactTask::four && state.particles.contact.size() > 0) forget_gains(state, b);
+  FaceNodes<Dim>& faces = state.scratch[b].face_nodes;
+  const bool imposed_before = fixes_before_contact(model, task);
+  for (FaceGroup<Dim>& group : faces.groups) {
+    group.before = velocity_of(state.nodes, faces, group);
+    group.fixed_axes = imposed_before ? fixed_axes(state, b, group.node) : 0u;
+  }
+}
+
+template <int Dim>
+void meet_faces(State<Dim>& state, const Model<Dim>& model, ContactTask task, double dt) {
+  FaceContacts<Dim>& contacts = state.face_contacts;
+  const ContactRules rules = contact_rules(model, task, dt);
+  parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) {
+    FaceNodes<Dim>& faces = state.scratch[b].face_nodes;
+    for (FaceGroup<Dim>& group : faces.groups) {
+      group.v = velocity_of(state.nodes, faces, group);
+      group.dp = {};
+    }
+  });
+  if (contacts.columns.empty()) return;
+  std::vector<std::uint8_t> unsolved(contacts.first_column.size() - 1, 0);
+  parallel_for(unsolved.size(), model.threads, [&](std::size_t set) {
+    SetOfColumns<Dim> columns(state, model, rules, set);
+    unsolved[set] = columns.run() ? 0 : 1;
+  });
+  const bool re_extrapolates = model.transfer_in(state.step).re_extrapolates;
+  const bool remembers = task == ContactTask::four && state.particles.contact.size() > 0;
+  for (std::size_t set = 0; set < unsolved.size(); ++set) {
+    for (std::uint32_t c = contacts.first_column[set]; c < contacts.first_column[set + 1]; ++c) {
+      ContactColumn<Dim>& column = contacts.columns[c];
+      BlockLedger<Dim>& ledger = state.scratch[contacts.parts[column.first].block].ledger;
+      if (c == contacts.first_column[set]) ledger.unsolved_nodes += unsolved[set];
+      const double rubbed = close_pair(state, column, column.w_now, task, dt, re_extrapolates);
+      ledger.friction_loss += rubbed;
+      ledger.contact_loss -= rubbed;
+      if (remembers) put_gain(state, column);
+    }
+  }
+}
+
+template <int Dim>
+void take_face_impulses(State<Dim>& state, const Model<Dim>& model, std::size_t b, ContactTask task, double dt) {
+  FaceNodes<Dim>& faces = state.scratch[b].face_nodes;
+  BlockLedger<Dim>& ledger = state.scratch[b].ledger;
+  const bool re_extrapolates = model.transfer_in(state.step).re_extrapolates;
+  for (FacePart<Dim>& part : faces.parts) {
+    const FaceGroup<Dim>& group = faces.groups[part.group];
+    if (task == ContactTask::term) continue;
+    const RigidPose<Dim>& pose = pose_in(state, part.body, task);
+    const Vec<Dim> v = pose.velocity_at(group.x);
+    const double given = part.of_rigid.book(task, v, -part.dp, v, re_extrapolates);
+    ledger.boundary_work += given;
+    ledger.contact_loss += given;
+    if (task == ContactTask::four) book_reaction(ledger, part.body, state.rigid[part.body].start, group.x, part.dp * (1 / dt));
+  }
+  for (FaceGroup<Dim>& group : faces.groups) {
+    if (task != ContactTask::term) ledger.contact_loss += group.account.book(task, group.before, group.dp, group.v, re_extrapolates);
+    for (std::uint32_t s = group.first_slot; s < group.end_slot; ++s) {
+      const std::size_t i = faces.slots[s];
+      change_node(state.nodes, i, group.dp * (state.nodes.momentum[i][Dim] / group.m), task, dt);
+    }
+  }
+}
+
+#define CRAMPON_INSTANTIATE(DIM)                                                                    \
+  template void start_meeting_faces<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, ContactTask); \
+  template void meet_faces<DIM>(State<DIM>&, const Model<DIM>&, ContactTask, double);               \
+  template void take_face_impulses<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, ContactTask, double);
+CRAMPON_INSTANTIATE(2)
+CRAMPON_INSTANTIATE(3)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

@@ -1,0 +1,70 @@
+#pragma once
+/// Faces of rigid bodies as points about them see them: by the body's shape, wherever the body is.
+
+#include "crampon/state/rigid.hpp"
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// A point as the body had it at the start, m.
+template <int Dim>
+Vec<3> in_body(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x) {
+  const Vec<Dim> arm = x - pose.centre;
+  Vec<3> there;
+  for (std::size_t j = 0; j < Dim; ++j) {
+    there[j] = body.centre[j];
+    for (std::size_t k = 0; k < Dim; ++k) there[j] += pose.turn[k][j] * arm[k];
+  }
+  return there;
+}
+
+/// Of x from the body's surface, m; negative inside.
+template <int Dim>
+double distance_from(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x) {
+  return body.shape->distance(in_body(body, pose, x));
+}
+
+/// The surface as a point sees it.
+template <int Dim>
+struct RigidFaceView {
+  double distance = 0;  ///< of the point outside the body, m; negative inside
+  Vec<Dim> out;         ///< unit normal out of the body; zero where there is none (the centre of a disk)
+};
+
+template <int Dim>
+RigidFaceView<Dim> see_face(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x) {
+  const Vec<3> there = in_body(body, pose, x);
+  const Vec<3> out = body.shape->outward(there);
+  RigidFaceView<Dim> view;
+  view.distance = body.shape->distance(there);
+  for (std::size_t k = 0; k < Dim; ++k) {
+    for (std::size_t j = 0; j < Dim; ++j) view.out[k] += pose.turn[k][j] * out[j];
+  }
+  return view;
+}
+
+/// From a node to the furthest face whose body the node's shape function may see, m: `reach` in cells along an axis, n the face's unit normal.
+template <int Dim>
+double reach_across(const Grid<Dim>& grid, double reach, const Vec<Dim>& n) {
+  double sum = 0;
+  for (int k = 0; k < Dim; ++k) sum += std::fabs(n[k]) * grid.cell[k];
+  return reach * sum;
+}
+
+/// How far from a node, in cells, material ends that the node sees to the full: functions of points, and of domains that meet without gaps.
+inline double reach_of_sums(ShapeFunctionKind kind) { return kind == ShapeFunctionKind::bspline ? 1.5 : 1.; }
+
+/// No node further than this from a face, m, belongs to a contact there.
+template <int Dim>
+double longest_reach(const Model<Dim>& model) {
+  double square = 0;
+  for (int k = 0; k < Dim; ++k) square += model.grid.cell[k] * model.grid.cell[k];
+  return (reach_of_sums(model.shape_functions) + 0.5) * std::sqrt(square);
+}
+
+/// Is x, m, nearer than `reach`, m, to the face of a body that others meet by its shape, or inside?
+template <int Dim>
+bool is_near_rigid_face(const State<Dim>& state, const Model<Dim>& model, const Vec<Dim>& x, double reach);
+
+}  // namespace crampon
