@@ -92,7 +92,9 @@ TEST(Outward, IsTheGradientOfTheDistance) {
     for (int k = 0; k < points; ++k) {
       const Vec<3> x = point(), n = shape->outward(x);
       ASSERT_NEAR(norm(n), 1, 1e-15) << name;  // a few roundings
-      if (shape->dimension() == 2) ASSERT_EQ(n[2], 0) << name;
+      if (shape->dimension() == 2) {
+        ASSERT_EQ(n[2], 0) << name;
+      }
       if (near_kink(*shape, x, step)) continue;
       ++compared;
       const double apart = norm(n - central_difference(*shape, x, step));
