@@ -113,9 +113,9 @@ constexpr Press presses[] = {{"plate_on_wall", true, false, false},
                              {"two_plates", true, true, true},
                              {"two_walls", false, false, true}};
 
-/// The others are in Full, and not all of them bear what they should within 1 %: shapes turned by 30 degrees are stairs of particles (linear and
-/// uGIMP .989 to 1.013); of particles from a file nobody knows the surface (at 30 degrees up to 6 %, and B-splines straight go on trembling by .6 %), and with linear functions rows of them cross
-/// nodes (up to 20 %), whatever they meet.
+/// The others are in Full, and not all of them bear what they should within 1 %: shapes turned by 30 degrees are stairs of particles (up to
+/// 1.038 over 20 places); of particles from a file nobody knows the surface (at 30 degrees up to 6 %, and B-splines straight read 1.013 and go on trembling by .6 %), and with linear functions rows of them cross
+/// nodes (up to 33 %), whatever they meet.
 bool is_met(const Layer& c) {
   const std::string shape_functions = c.shape_functions;
   return c.made == Made::of_shape ? c.degrees == 0 || shape_functions == "bspline" : c.degrees == 0 && shape_functions == "gimp";
