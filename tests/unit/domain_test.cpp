@@ -6,7 +6,7 @@
 #include <random>
 
 #include "crampon/contact/edge_map.hpp"
-#include "crampon/shape/gimp.hpp"
+#include "crampon/shape/cpdi.hpp"
 #include "crampon/shape/stencil.hpp"
 
 namespace crampon::test {
@@ -33,7 +33,7 @@ class Domains {
   /// f(node less particle in cells, S, G in cells) for the nodes of a particle at `place` with these half edges; `other` is that of the lanes beside it.
   template <class F>
   void for_nodes(const Vec<Dim>& place, const Edges& edges, const Edges& other, F f) {
-    using T = Tile<Dim, GimpShape>;
+    using T = Tile<Dim, CpdiShape>;
     constexpr int lane = 2;
     Pack x[Dim];
     DomainEdges<Dim> packs;
@@ -44,10 +44,10 @@ class Domains {
         packs.r[k][j][lane] = edges[k][j];
       }
     }
-    StencilFactors<Dim, GimpShape> factors;
+    StencilFactors<Dim, CpdiShape> factors;
     factors.compute(x, grid_, {}, packs);
-    const Stencil<Dim, GimpShape> stencil(factors);
-    for (int n = 0; n < Stencil<Dim, GimpShape>::count; ++n) {
+    const Stencil<Dim, CpdiShape> stencil(factors);
+    for (int n = 0; n < Stencil<Dim, CpdiShape>::count; ++n) {
       const IndexVector<Dim> node = unflatten<Dim>(factors.base[lane] + T::steps[n], T::side);
       Vec<Dim> away, G;
       for (int k = 0; k < Dim; ++k) {

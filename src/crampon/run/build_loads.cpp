@@ -7,7 +7,7 @@
 
 #include "crampon/run/find_faces.hpp"
 #include "crampon/shape/bspline.hpp"
-#include "crampon/shape/domain.hpp"
+#include "crampon/shape/cpdi.hpp"
 #include "crampon/shape/gimp.hpp"
 #include "crampon/shape/linear.hpp"
 
@@ -22,7 +22,7 @@ double stencil_reach(ShapeFunctionKind kind, double half_size) {
     case ShapeFunctionKind::gimp:
       return GimpShape::reach(half_size);
     case ShapeFunctionKind::cpdi:
-      return GimpShape::reach(largest_half_extent);
+      return CpdiShape::reach(half_size);
     case ShapeFunctionKind::bspline:
       return BsplineShape::reach(half_size);
   }

@@ -13,6 +13,7 @@
 #include "crampon/run/notes/notes.hpp"
 #include "crampon/run/sample.hpp"
 #include "crampon/shape/bspline.hpp"
+#include "crampon/shape/cpdi.hpp"
 #include "crampon/shape/gimp.hpp"
 #include "crampon/shape/linear.hpp"
 #include "crampon/step/advance.hpp"
@@ -260,8 +261,9 @@ std::unique_ptr<Simulation> create_in(const Problem& problem, int threads) {
     case ShapeFunctionKind::linear:
       return std::make_unique<Engine<Dim, LinearShape>>(problem, threads);
     case ShapeFunctionKind::gimp:
-    case ShapeFunctionKind::cpdi:
       return std::make_unique<Engine<Dim, GimpShape>>(problem, threads);
+    case ShapeFunctionKind::cpdi:
+      return std::make_unique<Engine<Dim, CpdiShape>>(problem, threads);
     case ShapeFunctionKind::bspline:
       return std::make_unique<Engine<Dim, BsplineShape>>(problem, threads);
   }

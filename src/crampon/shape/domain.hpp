@@ -23,20 +23,18 @@ inline Pack snap_to_line(Pack at) { return lane_max(at, -at) < splat(on_line) ? 
 /// S_ip and G_ip of parallelograms as sums of products over their corners, in the plane. Nodes are the nearest one and its neighbours.
 struct CornerFactors {
   static constexpr int count = 4, width = 3;
-  bool in_use = false;
-  Pack N[count][2][width] = {};  ///< linear functions at a corner
-  Pack slope[count][2] = {};     ///< by which the value at a corner enters the gradient, 1/m
+  Pack N[count][2][width];  ///< linear functions at a corner
+  Pack slope[count][2];     ///< by which the value at a corner enters the gradient, 1/m
 
   /// d: from the nearest node to the particle, cells.
   template <class InverseCell>
   void compute(const Pack* d, DomainEdges<2> edges, const InverseCell& inverse_cell) {
-    in_use = true;
     const Pack zero = splat(0.);
     auto& r = edges.r;
-    for (int k = 0; k < 2; ++k) {
-      const Pack extent = lane_max(r[k][0], -r[k][0]) + lane_max(r[k][1], -r[k][1]);
+    for (auto& along : r) {
+      const Pack extent = lane_max(along[0], -along[0]) + lane_max(along[1], -along[1]);
       const Pack part = splat(largest_half_extent) / lane_max(extent, splat(largest_half_extent));
-      r[k][0] *= part, r[k][1] *= part;
+      along[0] *= part, along[1] *= part;
     }
     const Pack by_area = 0.25 / (r[0][0] * r[1][1] - r[0][1] * r[1][0]);
     const Pack across[2][2] = {{r[1][1] * by_area, -r[0][1] * by_area}, {-r[1][0] * by_area, r[0][0] * by_area}};  // [edge][axis]

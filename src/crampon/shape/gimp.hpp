@@ -6,8 +6,8 @@ namespace crampon {
 /// uGIMP: linear functions averaged over an undeformed particle, kinematics.md 1.1 (Bardenhagen & Kober 2004).
 struct GimpShape {
   static constexpr int width = 3;
-  static constexpr double bin_shift = 0.5;   ///< particles are binned by nearest node
-  static constexpr bool has_domains = true;  ///< stencils wide enough for domains that stretch (shape/domain.hpp)
+  static constexpr double bin_shift = 0.5;    ///< particles are binned by nearest node
+  static constexpr bool has_domains = false;  ///< that go with the nodes: CpdiShape
   /// Cells from a particle to the furthest node that it can reach.
   static constexpr double reach(double half_size) { return 1 + half_size; }
 

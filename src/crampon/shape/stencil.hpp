@@ -88,11 +88,10 @@ struct NodeWeights {
 /// Where the stencils of four particles lie, and the factors of their S_ip and G_ip.
 template <int Dim, class Shape>
 struct StencilFactors {
+  /// Domains that shear are parallelograms in the plane; in space they are boxes (docs/decisions/0019-domains-that-stretch.md).
   static constexpr bool has_corners = Shape::has_domains && Dim == 2;
-  struct Nothing {};
 
-  AxisFactors<Dim, Shape::width> factors;
-  [[no_unique_address]] std::conditional_t<has_corners, CornerFactors, Nothing> corners;
+  std::conditional_t<has_corners, CornerFactors, AxisFactors<Dim, Shape::width>> factors;
   alignas(32) int base[lanes];  ///< index of the lowest node in the tile's layers: layer * nodes + tile index
   bool same_base;               ///< all four particles share it
   int layer = 0;                ///< of pairs that cross nothing
@@ -111,19 +110,20 @@ struct StencilFactors {
   double slope(int n, int k, int l) const { return product(n, l, k); }
 
   /// x: positions, one Pack per axis, m; first_node: grid index of the block's first node.
-  void compute(const Pack* x, const Grid<Dim>& grid, const IndexVector<Dim>& first_node, const HalfSize<Dim>& half_size) {
+  void compute(const Pack* x, const Grid<Dim>& grid, const IndexVector<Dim>& first_node,
+               const HalfSize<Dim>& half_size) requires(!Shape::has_domains) {
     Pack f[Dim];
     place(x, grid, first_node, f);
     for (int k = 0; k < Dim; ++k) Shape::weights(f[k], half_size[k], grid.inverse_cell[k], factors.N[k], factors.dN[k]);
-    if constexpr (has_corners) corners.in_use = false;
   }
   /// The same for domains that have moved with the nodes.
-  void compute(const Pack* x, const Grid<Dim>& grid, const IndexVector<Dim>& first_node, const DomainEdges<Dim>& edges) {
+  void compute(const Pack* x, const Grid<Dim>& grid, const IndexVector<Dim>& first_node,
+               const DomainEdges<Dim>& edges) requires Shape::has_domains {
     Pack d[Dim];
     place(x, grid, first_node, d);
     for (int k = 0; k < Dim; ++k) d[k] = d[k] - Shape::bin_shift;
     if constexpr (has_corners) {
-      corners.compute(d, edges, grid.inverse_cell);
+      factors.compute(d, edges, grid.inverse_cell);
     } else {
       for (int k = 0; k < Dim; ++k) {
         Pack square = splat(0.);
@@ -157,18 +157,17 @@ struct StencilFactors {
   double product(int n, int l, int derived) const {
     const auto i = unflatten<Dim>(n, Shape::width);
     if constexpr (has_corners) {
-      if (corners.in_use) {
-        double sum = 0;
-        for (int c = 0; c < CornerFactors::count; ++c) {
-          const double by = derived < 0 ? 1. / CornerFactors::count : corners.slope[c][derived][l];
-          sum = std::fma(by, corners.N[c][0][i[0]][l] * corners.N[c][1][i[1]][l], sum);
-        }
-        return sum;
+      double sum = 0;
+      for (int c = 0; c < CornerFactors::count; ++c) {
+        const double by = derived < 0 ? 1. / CornerFactors::count : factors.slope[c][derived][l];
+        sum = std::fma(by, factors.N[c][0][i[0]][l] * factors.N[c][1][i[1]][l], sum);
       }
+      return sum;
+    } else {
+      double value = (derived == 0 ? factors.dN : factors.N)[0][i[0]][l];
+      for (int k = 1; k < Dim; ++k) value *= (derived == k ? factors.dN : factors.N)[k][i[k]][l];
+      return value;
     }
-    double value = (derived == 0 ? factors.dN : factors.N)[0][i[0]][l];
-    for (int k = 1; k < Dim; ++k) value *= (derived == k ? factors.dN : factors.N)[k][i[k]][l];
-    return value;
   }
 };
 
@@ -185,7 +184,7 @@ struct Stencil {
   const Factors& of;
   [[no_unique_address]] std::conditional_t<separable, Nothing, NodeWeights<Dim, Shape::width>> weights;
 
-  explicit Stencil(const Factors& f) : of(f), weights(weights_of(f)) {}
+  explicit Stencil(const Factors& f) : of(f), weights(f.factors) {}
 
   double weight(int n, int l) const {
     if constexpr (separable) {
@@ -200,15 +199,6 @@ struct Stencil {
     } else {
       return weights.G[n][k][l];
     }
-  }
-
- private:
-  using Weights = std::conditional_t<separable, Nothing, NodeWeights<Dim, Shape::width>>;
-  static Weights weights_of(const Factors& f) {
-    if constexpr (Factors::has_corners) {
-      if (f.corners.in_use) return Weights(f.corners);
-    }
-    return Weights(f.factors);
   }
 };
 

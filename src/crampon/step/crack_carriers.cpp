@@ -310,6 +310,7 @@ template void drop_lost_carriers<2>(State<2>&);
 template void drop_lost_carriers<3>(State<3>&);
 template void find_nodes_of_point<LinearShape>(const State<2>&, const Model<2>&, const std::vector<Carrier>&, std::vector<NodeOfPoint>&);
 template void find_nodes_of_point<GimpShape>(const State<2>&, const Model<2>&, const std::vector<Carrier>&, std::vector<NodeOfPoint>&);
+template void find_nodes_of_point<CpdiShape>(const State<2>&, const Model<2>&, const std::vector<Carrier>&, std::vector<NodeOfPoint>&);
 template void find_nodes_of_point<BsplineShape>(const State<2>&, const Model<2>&, const std::vector<Carrier>&, std::vector<NodeOfPoint>&);
 
 }  // namespace crampon

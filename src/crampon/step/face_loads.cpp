@@ -73,10 +73,10 @@ class LinkWeights {
 };
 
 /// As far as domains may reach.
-template <int Dim>
-HalfSize<Dim> reaching_half_size(const Particles<Dim>& particles, const Material<Dim>& material) {
+template <int Dim, class Shape>
+HalfSize<Dim> reaching_half_size(const Material<Dim>& material) {
   HalfSize<Dim> half = material.half_size;
-  if (particles.has_domains()) half.fill(largest_half_extent);
+  if (Shape::has_domains) half.fill(largest_half_extent);
   return half;
 }
 
@@ -131,13 +131,13 @@ template <int Dim, class Shape>
 class DeformationNow {
  public:
   DeformationNow(const State<Dim>& state, const Model<Dim>& model, std::size_t b, double stress_dt)
-      : state_(state), model_(model), block_(b), stress_dt_(state.particles.has_domains() ? 0. : stress_dt) {
+      : state_(state), model_(model), block_(b), stress_dt_(Shape::has_domains ? 0. : stress_dt) {
     if (stress_dt_ > 0) velocity_ = gathered<Dim, Shape>(state, b, state.nodes.velocity);
   }
   /// F[d * Dim + k]
   void find(std::size_t pack, const Material<Dim>& material, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, Pack* F) const {
     const Particles<Dim>& particles = state_.particles;
-    if (particles.has_domains()) {
+    if constexpr (Shape::has_domains) {
       for (int c = 0; c < Dim * Dim; ++c) {
         const double at_start = material.half_size[static_cast<std::size_t>(c % Dim)] * model_.grid.cell[c % Dim];
         F[c] = particles.domain[pack * domain_size<Dim> + static_cast<std::size_t>(c)] * splat(1 / at_start);
@@ -200,7 +200,7 @@ void weigh_face_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b,
             state.faces.area_vector[link.column] = column_of<Dim>(cofactor<Dim>(F), column.axis) * (column.direction * stretch[l]);
           }
           double sum = 0;
-          const LinkWeights<Dim, Shape> weights(model.grid, reaching_half_size(particles, material), link, column, F, x_p);
+          const LinkWeights<Dim, Shape> weights(model.grid, reaching_half_size<Dim, Shape>(material), link, column, F, x_p);
           for_nodes<Dim, Shape>(weights, model.grid, first_node, stencil, l, [&](double w, double, int) { sum += w; });
           state.faces.sum[number] = sum;
         });
@@ -245,9 +245,8 @@ void for_face_forces(const State<Dim>& state, const Model<Dim>& model, std::size
                             for (int k = 0; k < Dim; ++k) t[k] = state.faces.traction[link.column][k];
                             if (link.mirrored) t[column.axis] = -t[column.axis];
                             const double rest = state.faces.rest[link.column];
-                            const LinkWeights<Dim, Shape> weights(model.grid,
-                                                                  reaching_half_size(state.particles, model.materials[run.material]), link,
-                                                                  column, state.faces.deformation[of.number], x_p);
+                            const LinkWeights<Dim, Shape> weights(model.grid, reaching_half_size<Dim, Shape>(model.materials[run.material]),
+                                                                  link, column, state.faces.deformation[of.number], x_p);
                             for_nodes<Dim, Shape>(weights, model.grid, first_node, stencil, l, [&](double w, double S, int n) {
                               visit(of.slot, stencil, l, targets, n, splat_as<NodalVector<Dim>>(w + S * rest) * t);
                             });

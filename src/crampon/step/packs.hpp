@@ -15,16 +15,15 @@ template <int Dim, class Shape>
   Pack x[Dim];
   particles.pack_positions(pack, x);
   if constexpr (Shape::has_domains) {
-    if (particles.has_domains()) {
-      DomainEdges<Dim> edges;
-      const Pack* half_edge = &particles.domain[pack * domain_size<Dim>];
-      for (int k = 0; k < Dim; ++k) {
-        for (int j = 0; j < Dim; ++j) edges.r[k][j] = half_edge[k * Dim + j] * splat(grid.inverse_cell[k]);
-      }
-      return out.compute(x, grid, first_node, edges);
+    DomainEdges<Dim> edges;
+    const Pack* half_edge = &particles.domain[pack * domain_size<Dim>];
+    for (int k = 0; k < Dim; ++k) {
+      for (int j = 0; j < Dim; ++j) edges.r[k][j] = half_edge[k * Dim + j] * splat(grid.inverse_cell[k]);
     }
+    out.compute(x, grid, first_node, edges);
+  } else {
+    out.compute(x, grid, first_node, half_size);
   }
-  out.compute(x, grid, first_node, half_size);
 }
 
 /// The stencils of a block's packs, run by run.

@@ -118,14 +118,7 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
   const bool corrects = further != 0;
   constexpr int position_pack = 0, width = motion_packs<Dim>;
   Pack low = splat(1e300), high = splat(-1e300), fastest = splat(0.), check = splat(0.);
-  const NodalVector<Dim>* end_velocity =
-      particles.has_domains() || stress_dt > 0 ? gathered<Dim, Shape>(state, b, state.nodes.velocity) : nullptr;
-  const auto move = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
-    if (particles.has_domains() && !model.is_rigid(model.materials[run.material].field)) {
-      Pack L[Dim * Dim];
-      gradient<Dim, Shape>(stencil, targets, offsets.end.data(), end_velocity, L);
-      stretch_domains(particles, pack, L, dt + further);
-    }
+  const auto move = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
     Pack lowest = low, highest = high, speed = fastest, bad = check;  // in registers
     for (int l = 0; l < lanes; ++l) {
       const std::size_t p = std::size_t{pack} * lanes + l;
@@ -143,10 +136,26 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
     }
     low = lowest, high = highest, fastest = speed, check = bad;
   };
-  if (stress_dt > 0) {
-    update_stress<Dim, Shape>(state, model, b, stress_dt, end_velocity, offsets.end, move);
+  const NodalVector<Dim>* end_velocity =
+      Shape::has_domains || stress_dt > 0 ? gathered<Dim, Shape>(state, b, state.nodes.velocity) : nullptr;
+  const auto walk = [&](const auto& visit) {
+    if (stress_dt > 0) {
+      update_stress<Dim, Shape>(state, model, b, stress_dt, end_velocity, offsets.end, visit);
+    } else {
+      for_packs<Dim, Shape>(state, model, b, visit);
+    }
+  };
+  if constexpr (Shape::has_domains) {
+    walk([&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+      if (!model.is_rigid(model.materials[run.material].field)) {
+        Pack L[Dim * Dim];
+        gradient<Dim, Shape>(stencil, targets, offsets.end.data(), end_velocity, L);
+        stretch_domains(particles, pack, L, dt + further);
+      }
+      move(pack, stencil, targets, run);
+    });
   } else {
-    for_packs<Dim, Shape>(state, model, b, move);
+    walk(move);
   }
   if (!model.rigid_bodies.empty()) {
     place_rigid_particles(state, model, b, &RigidMotion<Dim>::end, [&](const Vec<Dim>& x) {
