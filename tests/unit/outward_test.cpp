@@ -45,6 +45,7 @@ std::vector<Named> combinations() {
           {"intersection", make<Intersection>(Parts{plane[1].shape, plane[2].shape, plane[0].shape})},
           {"difference", holed},
           {"turned union", make<Rotated>(joined, .7, Vec<3>{{.1, -.2, 0}})},
+          {"mirrored difference", make<Mirrored>(holed, std::size_t{1}, .15)},
           {"shifted difference", make<Translated>(holed, Vec<3>{{.1, -.2, 0}})},
           {"difference of a union", make<Difference>(joined, Parts{make<Rotated>(holed, 2., Vec<3>{})})},
           {"solids", make<Difference>(make<Union>(Parts{solid[0].shape, solid[1].shape}), Parts{solid[2].shape})},

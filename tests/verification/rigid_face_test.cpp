@@ -191,44 +191,22 @@ TEST(PressedLayerInSpace, BearsItsForce) {
       for (const double place : {0.5}) {
         constexpr double height = 4, period = 2 * height, end = 5 * period;
         const double strain = *shape_functions == 'l' ? 0.005 : 0.02;
-        const std::string above =
-            plates ? fmt::format("shape = {{ kind = \"box\", low = [-1, -1, {}], high = [5, 5, {}] }}", place + height, place + height + 2)
-                   : fmt::format("point = [0, 0, {}]\nnormal = [0, 0, -1]", place + height);
-        const std::string below = plates
-                                      ? fmt::format("shape = {{ kind = \"box\", low = [-1, -1, {}], high = [5, 5, {}] }}", place - 2, place)
-                                      : fmt::format("point = [0, 0, {}]\nnormal = [0, 0, 1]", place);
-        const auto simulation = make(fmt::format(R"(
-analysis = "three_dimensional"
-[grid]
-origin = [-4, -4, -4]
-size = [12, 12, 16]
-cell = 1
-[time]
-end = {0}
-courant = 0.4
-[method]
-shape_functions = "{1}"
-damping = {2}
-[[material]]
-name = "m"
-law = "elastic_large_rotation"
-E = 1
-nu = 0
-density = 1
-[[body]]
-name = "block"
-material = "m"
-shape = {{ kind = "box", low = [0, 0, {3}], high = [4, 4, {4}] }}
-[[{5}]]
-name = "above"
-{6}
-velocity = [0, 0, {{ times = [0, {7}, {8}], values = [0, {9}, 0] }}]
-[[{5}]]
-name = "below"
-{10}
-)",
-                                                 end, shape_functions, std::numbers::pi / height, place, place + height,
-                                                 plates ? "rigid" : "wall", above, period, 2 * period, -strain * height / period, below));
+        std::string text =
+            text_in_space({.shape_functions = shape_functions, .end = end, .damping = std::numbers::pi / height}, {-4, -4, -4}, {8, 8, 12});
+        text += fmt::format("[[body]]\nname = \"block\"\nmaterial = \"m\"\nshape = {}\n", box(0, 0, place, 4, 4, place + height));
+        const auto tool = [&](const char* name, double z, double out) {
+          if (plates) {
+            text += fmt::format("[[rigid]]\nname = \"{}\"\nshape = {}\n", name,
+                                box(-1, -1, std::min(z, z + 2 * out), 5, 5, std::max(z, z + 2 * out)));
+          } else {
+            text += fmt::format("[[wall]]\nname = \"{}\"\npoint = [0, 0, {}]\nnormal = [0, 0, {}]\n", name, z, -out);
+          }
+        };
+        tool("below", place, -1);
+        tool("above", place + height, 1);
+        text += fmt::format("velocity = [0, 0, {{ times = [0, {}, {}], values = [0, {}, 0] }}]\n", period, 2 * period,
+                            -strain * height / period);
+        const auto simulation = make(text);
         double time = 0, before = 0, force[2] = {};
         run(*simulation, [&](Simulation& s) {
           const double dt = s.time() - before;
@@ -312,35 +290,11 @@ INSTANTIATE_TEST_SUITE_P(Plates, ThinPlate,
 TEST(ThinPlateInSpace, ThrowsBackAsAThickOne) {
   const auto momentum = [](const char* shape_functions, double thickness) {
     constexpr double speed = 0.02;
-    const auto simulation = make(fmt::format(R"(
-analysis = "three_dimensional"
-[grid]
-origin = [-6, -6, -6]
-size = [12, 12, 16]
-cell = 1
-[time]
-end = 34
-courant = 0.4
-[method]
-shape_functions = "{}"
-[contact]
-fields = "bodies"
-[[material]]
-name = "m"
-law = "neo_hookean"
-E = 1
-nu = 0
-density = 1
-[[body]]
-name = "cube"
-material = "m"
-shape = {{ kind = "box", low = [-2, -2, 0], high = [2, 2, 4] }}
-velocity = [0, 0, -{}]
-[[rigid]]
-name = "plate"
-shape = {{ kind = "box", low = [-4, -4, {}], high = [4, 4, -0.2] }}
-)",
-                                             shape_functions, speed, -0.2 - thickness));
+    std::string text = text_in_space({.shape_functions = shape_functions, .end = 34, .material = "neo_hookean"}, {-6, -6, -6}, {6, 6, 10});
+    text +=
+        fmt::format("[[body]]\nname = \"cube\"\nmaterial = \"m\"\nshape = {}\nvelocity = [0, 0, {}]\n", box(-2, -2, 0, 2, 2, 4), -speed);
+    text += fmt::format("[[rigid]]\nname = \"plate\"\nshape = {}\n", box(-4, -4, -0.2 - thickness, 4, 4, -0.2));
+    const auto simulation = make(text);
     run(*simulation);
     return value(*simulation, "momentum_z") / (64 * speed);
   };

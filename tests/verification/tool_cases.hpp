@@ -1,6 +1,7 @@
 #pragma once
 /// Problems of rigid tools on elastic bodies, with cells, E and density of 1, anywhere on the grid and turned against it.
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -85,6 +86,37 @@ nu = {7}
 density = 1
 )",
                      -reach, 2 * reach, h.end, h.shape_functions, h.damping, h.law, h.material, h.nu, h.cell_height);
+}
+
+/// The same in space: the grid from one corner to another, in whole cells.
+inline std::string text_in_space(const Head& h, const std::array<int, 3>& low, const std::array<int, 3>& high) {
+  return fmt::format(R"(
+analysis = "three_dimensional"
+[grid]
+origin = [{}, {}, {}]
+size = [{}, {}, {}]
+cell = 1
+[time]
+end = {}
+courant = 0.4
+[method]
+shape_functions = "{}"
+damping = {}
+[contact]
+fields = "bodies"
+default = {}
+[[material]]
+name = "m"
+law = "{}"
+E = 1
+nu = {}
+density = 1
+)",
+                     low[0], low[1], low[2], high[0] - low[0], high[1] - low[1], high[2] - low[2], h.end, h.shape_functions, h.damping,
+                     h.law, h.material, h.nu);
+}
+inline std::string box(double low_x, double low_y, double low_z, double high_x, double high_y, double high_z) {
+  return fmt::format("{{ kind = \"box\", low = [{}, {}, {}], high = [{}, {}, {}] }}", low_x, low_y, low_z, high_x, high_y, high_z);
 }
 
 /// A point of a body and the area that its particle stands for.

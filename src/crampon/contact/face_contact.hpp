@@ -12,8 +12,7 @@ namespace crampon {
 /// What moves as one at a node, and meets a rigid face.
 template <int Dim>
 struct FaceGroup {
-  std::uint32_t block = 0;
-  std::uint16_t node = 0;                      ///< local node of the block
+  std::uint16_t node = 0;                      ///< local node of its block
   std::uint32_t first_slot = 0, end_slot = 0;  ///< of its fields, in FaceNodes::slots
   int contact_group = -1;   ///< the same among the groups of the block's nodes with several (ContactNodes); -1: it is alone there
   Vec<Dim> x;               ///< of the node, m

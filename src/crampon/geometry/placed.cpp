@@ -62,4 +62,18 @@ Bounds3 Translated::bounds() const {
   return {inner.low + by_, inner.high + by_};
 }
 
+Vec<3> Mirrored::outward(const Vec<3>& x) const {
+  Vec<3> out = shape_->outward(image(x));
+  out[axis_] = -out[axis_];
+  return out;
+}
+
+Bounds3 Mirrored::bounds() const {
+  Bounds3 box = shape_->bounds();
+  const double low = 2 * at_ - box.high[axis_];
+  box.high[axis_] = 2 * at_ - box.low[axis_];
+  box.low[axis_] = low;
+  return box;
+}
+
 }  // namespace crampon

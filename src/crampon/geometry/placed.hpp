@@ -1,5 +1,5 @@
 #pragma once
-/// Shapes turned and shifted.
+/// Shapes turned, shifted and mirrored.
 
 #include <array>
 
@@ -42,6 +42,28 @@ class Translated final : public Shape {
  private:
   ShapePtr shape_;
   Vec<3> by_;
+};
+
+/// A shape in the mirror across a coordinate axis.
+class Mirrored final : public Shape {
+ public:
+  /// axis: 0, 1 or 2; at: the mirror's coordinate along it, m
+  Mirrored(ShapePtr shape, std::size_t axis, double at) : shape_(std::move(shape)), axis_(axis), at_(at) {}
+  double distance(const Vec<3>& x) const override { return shape_->distance(image(x)); }
+  Vec<3> outward(const Vec<3>& x) const override;
+  bool contains(const Vec<3>& x, double slack = 0) const override { return shape_->contains(image(x), slack); }
+  Bounds3 bounds() const override;
+  std::optional<double> measure() const override { return shape_->measure(); }
+  int dimension() const override { return shape_->dimension(); }
+
+ private:
+  Vec<3> image(Vec<3> x) const {
+    x[axis_] = 2 * at_ - x[axis_];
+    return x;
+  }
+  ShapePtr shape_;
+  std::size_t axis_;
+  double at_;
 };
 
 }  // namespace crampon

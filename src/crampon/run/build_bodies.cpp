@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -106,6 +107,7 @@ class BodyBuilder {
     field.thickness = thickness;
     std::array<double, Dim> half_size;
     for (int k = 0; k < Dim; ++k) half_size[k] = 0.5 / per_cell[k];
+    field.half_size = *std::max_element(half_size.begin(), half_size.end());
     switch (problem_.method.shape_functions) {
       case ShapeFunctionKind::linear:
         field.edge = EdgeMap::linear(half_size);
@@ -156,33 +158,35 @@ class BodyBuilder {
     body.shape = in.shape;
     const std::size_t first = out_.particles.size();
     const auto material = add_material(std::make_shared<RigidMaterial>(), as_body, out_.per_cell.back(), body.field);
-    const Bounds3 bounds = in.shape->bounds();
-    bool bounded = true;
-    for (std::size_t k = 0; k < Dim; ++k) bounded = bounded && std::isfinite(bounds.low[k] + bounds.high[k]);
-    // So thin that no particle's place lies in it, it has a surface all the same.
-    fill(as_body, out_.names.size(), material, body.acts == Acts::face && bounded && has_points(*in.shape, bounds));
+    fill(as_body, out_.names.size(), material, body.acts == Acts::face && may_be_empty(*in.shape));
     out_.names.push_back(in.name);
+    body.is_empty = first == out_.particles.size();
     double volume = 0;
     for (std::size_t i = first; i < out_.particles.size(); ++i) {
       body.centre += out_.particles[i].x * out_.particles[i].volume;
       volume += out_.particles[i].volume;
     }
-    if (volume > 0) {
+    if (!body.is_empty) {
       body.centre *= 1 / volume;
-    } else {  // so thin that no particle's place lies in it
-      for (std::size_t k = 0; k < Dim && bounded; ++k) body.centre[static_cast<int>(k)] = 0.5 * (bounds.low[k] + bounds.high[k]);
+    } else {
+      const Bounds3 bounds = in.shape->bounds();
+      for (std::size_t k = 0; k < Dim; ++k) body.centre[k] = 0.5 * (bounds.low[k] + bounds.high[k]);
     }
     for (std::size_t k = 0; k < in.spin_centre.size(); ++k) body.centre[k] = in.spin_centre[k];
   }
 
-  /// Is any of many points of its box in a shape? Of an intersection of shapes that do not meet none is.
-  static bool has_points(const Shape& shape, const Bounds3& bounds) {
+  /// A rigid body so thin that no particle's place lies in it has a surface all the same. An intersection of shapes that do not meet has none:
+  /// not one of many points of its box is in it.
+  static bool may_be_empty(const Shape& shape) {
     constexpr int side = 33;
+    const Bounds3 box = shape.bounds();
+    for (std::size_t k = 0; k < Dim; ++k) {
+      if (!std::isfinite(box.low[k] + box.high[k])) return false;
+    }
     for (int n = 0; n < power(side, Dim); ++n) {
       const IndexVector<Dim> at = unflatten<Dim>(n, side);
       Vec<3> x;
-      for (std::size_t k = 0; k < Dim; ++k)
-        x[k] = bounds.low[k] + (bounds.high[k] - bounds.low[k]) * at[static_cast<int>(k)] / static_cast<double>(side - 1);
+      for (std::size_t k = 0; k < Dim; ++k) x[k] = box.low[k] + (box.high[k] - box.low[k]) * at[static_cast<int>(k)] / (side - 1.);
       if (shape.contains(x)) return true;
     }
     return false;
@@ -196,7 +200,6 @@ class BodyBuilder {
     const std::vector<double>& centre = flat ? in.point : in.centre;
     for (int k = 0; k < Dim; ++k) body.centre[k] = centre[static_cast<std::size_t>(k)];
     body.shape = wall_shape(in, Dim);
-    body.has_particles = false;
   }
 
   std::uint32_t material_of(const BodyInput& body, const std::array<int, Dim>& per_cell, std::uint16_t field) {

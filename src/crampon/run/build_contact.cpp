@@ -138,11 +138,22 @@ void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state,
     RigidBody<Dim>& body = model.rigid_bodies[r];
     if (body.prescribes()) add_condition(problem.rigids[r], r, model);
     // A spring hangs on a displacement, which a shape does not have.
-    for (std::size_t f = 0; f < n && body.acts == RigidBody<Dim>::Acts::face; ++f) {
-      if (!model.is_rigid(static_cast<int>(f)) &&
-          std::holds_alternative<InterfaceContact>(model.law_between(static_cast<int>(f), body.field)))
-        body.acts = RigidBody<Dim>::Acts::particles;
+    bool has_springs = false;
+    for (int f = 0; f < static_cast<int>(n); ++f)
+      has_springs = has_springs || (!model.is_rigid(static_cast<std::uint16_t>(f)) &&
+                                    std::holds_alternative<InterfaceContact>(model.law_between(f, body.field)));
+    if (!has_springs || body.acts != RigidBody<Dim>::Acts::face) continue;
+    const RigidInput& in = problem.rigids[r];
+    if (in.faces) {
+      errors.push_back({in.at("faces"), fmt::format("the law between the rigid body \"{}\" and bodies is an interface", in.name),
+                        "the face of a shape has no displacement to hang a spring on",
+                        "set faces = \"particles\", or give the body another law by a [[contact_pair]]"});
+    } else if (body.is_empty) {
+      errors.push_back({in.at("shape"),
+                        fmt::format("the rigid body \"{}\" has no particles, and bodies hang on it by an interface", in.name),
+                        "no particle's place lies in its shape", "make it thicker, or use smaller cells or more particles_per_cell"});
     }
+    body.acts = RigidBody<Dim>::Acts::particles;
   }
   state.rigid.resize(model.rigid_bodies.size());
   for (std::size_t r = 0; r < state.rigid.size(); ++r) {

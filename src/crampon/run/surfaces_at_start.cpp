@@ -6,40 +6,12 @@
 #include <memory>
 
 #include "crampon/geometry/combine.hpp"
+#include "crampon/geometry/placed.hpp"
 #include "crampon/geometry/way_out.hpp"
 
 namespace crampon {
 
 namespace {
-
-/// A shape in the mirror across axis k.
-class Mirrored final : public Shape {
- public:
-  Mirrored(ShapePtr shape, int axis, double at) : shape_(std::move(shape)), axis_(static_cast<std::size_t>(axis)), at_(at) {}
-  double distance(const Vec<3>& x) const override { return shape_->distance(image(x)); }
-  Vec<3> outward(const Vec<3>& x) const override {
-    Vec<3> out = shape_->outward(image(x));
-    out[axis_] = -out[axis_];
-    return out;
-  }
-  Bounds3 bounds() const override {
-    Bounds3 box = shape_->bounds();
-    const double low = 2 * at_ - box.high[axis_];
-    box.high[axis_] = 2 * at_ - box.low[axis_];
-    box.low[axis_] = low;
-    return box;
-  }
-  int dimension() const override { return shape_->dimension(); }
-
- private:
-  Vec<3> image(Vec<3> x) const {
-    x[axis_] = 2 * at_ - x[axis_];
-    return x;
-  }
-  ShapePtr shape_;
-  std::size_t axis_;
-  double at_;
-};
 
 /// What moves as one with a body: all bodies of its field and of those bonded to it, with their images in symmetry planes.
 template <int Dim>
@@ -51,7 +23,8 @@ ShapePtr whole_of(const Problem& problem, const Model<Dim>& model, const std::ve
   if (parts.empty()) return nullptr;
   for (const SymmetryPlane& plane : model.symmetries) {
     const std::size_t count = parts.size();
-    for (std::size_t p = 0; p < count; ++p) parts.push_back(std::make_shared<Mirrored>(parts[p], plane.axis, plane.at));
+    for (std::size_t p = 0; p < count; ++p)
+      parts.push_back(std::make_shared<Mirrored>(parts[p], static_cast<std::size_t>(plane.axis), plane.at));
   }
   if (parts.size() == 1) return parts.front();
   return std::make_shared<Union>(std::move(parts));

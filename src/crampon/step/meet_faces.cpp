@@ -29,6 +29,29 @@ const RigidPose<Dim>& pose_in(const State<Dim>& state, std::size_t body, Contact
   return task == ContactTask::two ? state.rigid[body].start : state.rigid[body].end;
 }
 
+/// f(part, group) for the parts of a column.
+template <int Dim, class F>
+void for_parts(State<Dim>& state, const ContactColumn<Dim>& column, F f) {
+  for (std::uint32_t i = column.first; i < column.end; ++i) {
+    const auto& at = state.face_contacts.parts[i];
+    FaceNodes<Dim>& nodes = state.scratch[at.block].face_nodes;
+    FacePart<Dim>& part = nodes.parts[at.part];
+    f(part, nodes.groups[part.group]);
+  }
+}
+
+/// Velocity of the rigid body against the material at the face, by the nodes' parts of it, m/s. of: FaceGroup::before or ::v.
+template <int Dim>
+Vec<Dim> relative_velocity(State<Dim>& state, const ContactColumn<Dim>& column, ContactTask task, Vec<Dim> FaceGroup<Dim>::*of) {
+  const RigidPose<Dim>& pose = pose_in(state, column.body, task);
+  Vec<Dim> w;
+  for_parts(state, column, [&](const FacePart<Dim>& part, const FaceGroup<Dim>& group) {
+    const Vec<Dim> of_rigid = task == ContactTask::term ? Vec<Dim>{} : pose.velocity_at(group.x);  // terms are changes of velocity
+    w += (of_rigid - group.*of) * (part.w / column.w);
+  });
+  return w;
+}
+
 /// A node with pairs of its own, of which some group meets a face.
 template <int Dim>
 struct PairsAtFace {
@@ -47,9 +70,12 @@ class SetOfColumns {
       : state_(state),
         model_(model),
         rules_(rules),
+        at_faces_(rules),
         faces_(state.face_contacts),
         begin_(faces_.columns.data() + faces_.first_column[set]),
-        end_(faces_.columns.data() + faces_.first_column[set + 1]) {}
+        end_(faces_.columns.data() + faces_.first_column[set + 1]) {
+    at_faces_.literal = false;
+  }
 
   /// Returns false when it does not converge.
   bool run() {
@@ -60,7 +86,7 @@ class SetOfColumns {
       ContactGroup<Dim>* groups = groups_of(at);
       for (std::size_t g = 0; g < at.p.size(); ++g) groups[g].p = at.p[g];
     }
-    for (ContactColumn<Dim>* c = begin_; c != end_; ++c) c->w_now = relative_velocity(*c);
+    for (ContactColumn<Dim>* c = begin_; c != end_; ++c) c->w_now = relative_velocity_now(*c);
     return solved;
   }
 
@@ -137,29 +163,14 @@ class SetOfColumns {
     return most;
   }
 
-  template <class F>
-  void for_parts(const ContactColumn<Dim>& column, F f) {
-    for (std::uint32_t i = column.first; i < column.end; ++i) {
-      FaceNodes<Dim>& nodes = state_.scratch[faces_.parts[i].block].face_nodes;
-      FacePart<Dim>& part = nodes.parts[faces_.parts[i].part];
-      f(part, nodes.groups[part.group]);
-    }
-  }
-
-  /// Velocity of the rigid body against the material at the face, m/s: by the nodes' parts of it.
-  Vec<Dim> relative_velocity(const ContactColumn<Dim>& column) {
-    const RigidPose<Dim>& pose = pose_in(state_, column.body, rules_.task);
-    Vec<Dim> w;
-    for_parts(column, [&](const FacePart<Dim>& part, const FaceGroup<Dim>& group) {
-      w += ((rules_.task == ContactTask::term ? Vec<Dim>{} : pose.velocity_at(group.x)) - group.v) * (part.w / column.w);
-    });
-    return w;
+  Vec<Dim> relative_velocity_now(const ContactColumn<Dim>& column) const {
+    return relative_velocity(state_, column, rules_.task, &FaceGroup<Dim>::v);
   }
 
   /// The mass that an impulse at the face moves, kg; none where nothing can move.
-  double mass_before(const ContactColumn<Dim>& column) {
+  double mass_before(const ContactColumn<Dim>& column) const {
     double inverse = 0;
-    for_parts(column, [&](const FacePart<Dim>& part, const FaceGroup<Dim>& group) {
+    for_parts(state_, column, [&](const FacePart<Dim>& part, const FaceGroup<Dim>& group) {
       const double share = part.w / column.w;
       inverse += share * share * dot(column.pair.n, without_axes(column.pair.n, group.fixed_axes)) / group.m;
     });
@@ -167,7 +178,7 @@ class SetOfColumns {
   }
 
   void add(ContactColumn<Dim>& column, const Vec<Dim>& J) {
-    for_parts(column, [&](FacePart<Dim>& part, FaceGroup<Dim>& group) {
+    for_parts(state_, column, [&](FacePart<Dim>& part, FaceGroup<Dim>& group) {
       const Vec<Dim> dp = without_axes(J * (-part.w / column.w), group.fixed_axes);
       part.dp += dp;
       group.dp += dp;
@@ -178,12 +189,11 @@ class SetOfColumns {
   void start(ContactColumn<Dim>& column) {
     column.pair.J = {};
     const double m = mass_before(column);
-    for_parts(column, [&](FacePart<Dim>& part, const FaceGroup<Dim>& group) {
+    for_parts(state_, column, [&](FacePart<Dim>& part, const FaceGroup<Dim>& group) {
       part.dp = {};
       largest_ = std::fmax(largest_, m * norm(group.v));
     });
-    const Vec<Dim> w = relative_velocity(column);
-    largest_ = std::fmax(largest_, m * norm(w));
+    largest_ = std::fmax(largest_, m * norm(relative_velocity_now(column)));
   }
 
   /// Returns by how much the impulse changes, kg m/s.
@@ -193,9 +203,9 @@ class SetOfColumns {
     if (m == 0) return 0;
     const Vec<Dim> before = pair.J;
     if (before != Vec<Dim>{}) add(column, -before);
-    pair.J = respond(rules_, pair, m, relative_velocity(column)).J;
+    pair.J = respond(at_faces_, pair, m, relative_velocity_now(column)).J;
     add(column, pair.J);
-    if (rules_.task == ContactTask::four) pair.w_end = dot(relative_velocity(column), pair.n);
+    if (rules_.task == ContactTask::four) pair.w_end = dot(relative_velocity_now(column), pair.n);
     largest_ = std::fmax(largest_, norm(pair.J));
     return norm(pair.J - before);
   }
@@ -203,44 +213,29 @@ class SetOfColumns {
   State<Dim>& state_;
   const Model<Dim>& model_;
   const ContactRules& rules_;
+  ContactRules at_faces_;  ///< the papers know no such faces, and the rule of each task for itself makes energy
   std::vector<PairsAtFace<Dim>> pairs_;
   FaceContacts<Dim>& faces_;
   ContactColumn<Dim>*begin_, *end_;
   double largest_ = 0;
 };
 
-/// Relative velocity at a face of what the nodes had before contact of the task, m/s.
-template <int Dim>
-Vec<Dim> approach(const State<Dim>& state, const ContactColumn<Dim>& column, ContactTask task) {
-  const RigidPose<Dim>& pose = pose_in(state, column.body, task);
-  Vec<Dim> w;
-  for (std::uint32_t i = column.first; i < column.end; ++i) {
-    const auto& at = state.face_contacts.parts[i];
-    const FaceNodes<Dim>& nodes = state.scratch[at.block].face_nodes;
-    const FacePart<Dim>& part = nodes.parts[at.part];
-    const FaceGroup<Dim>& group = nodes.groups[part.group];
-    w += (pose.velocity_at(group.x) - group.before) * (part.w / column.w);
-  }
-  return w;
-}
-
 /// After the columns of a set are solved: what their pairs keep, and the work of friction, J.
 template <int Dim>
-double close_pair(const State<Dim>& state, ContactColumn<Dim>& column, const Vec<Dim>& w, ContactTask task, double dt,
-                  bool re_extrapolates) {
+double close_pair(State<Dim>& state, ContactColumn<Dim>& column, ContactTask task, double dt, bool re_extrapolates) {
   ContactPair<Dim>& pair = column.pair;
   switch (task) {
     case ContactTask::two:
-      pair.w_start = approach(state, column, task);
-      pair.w_settled = w;
+      pair.w_start = relative_velocity(state, column, task, &FaceGroup<Dim>::before);
+      pair.w_settled = column.w_now;
       return 0;
     case ContactTask::four:
       pair.rubbing = rubbing(pair);
-      note_slip(pair, w, dt);
+      note_slip(pair, column.w_now, dt);
       // Without Task 6 the velocity of the particles at the end is not known: that at the start stands for both.
       return re_extrapolates ? 0. : friction_work(pair, pair.w_start);
     case ContactTask::six:
-      return friction_work(pair, approach(state, column, task));
+      return friction_work(pair, relative_velocity(state, column, task, &FaceGroup<Dim>::before));
     case ContactTask::term:
       break;
   }
@@ -261,8 +256,8 @@ void put_gain(State<Dim>& state, const ContactColumn<Dim>& column) {
     const auto& at = state.face_contacts.parts[i];
     const FaceNodes<Dim>& nodes = state.scratch[at.block].face_nodes;
     const FaceGroup<Dim>& group = nodes.groups[nodes.parts[at.part].group];
-    for (std::uint32_t s = group.first_slot; s < group.end_slot; ++s)
-      state.nodes.contact[nodes.slots[s]].r[0] = Pack{column.pair.history_gain, 1., 0., 0.};
+    for (std::uint32_t k = group.first_slot; k < group.end_slot; ++k)
+      state.nodes.contact[nodes.slots[k]].r[0] = Pack{column.pair.history_gain, 1., 0., 0.};
   }
 }
 
@@ -303,7 +298,7 @@ void meet_faces(State<Dim>& state, const Model<Dim>& model, ContactTask task, do
       ContactColumn<Dim>& column = contacts.columns[c];
       BlockLedger<Dim>& ledger = state.scratch[contacts.parts[column.first].block].ledger;
       if (c == contacts.first_column[set]) ledger.unsolved_nodes += unsolved[set];
-      const double rubbed = close_pair(state, column, column.w_now, task, dt, re_extrapolates);
+      const double rubbed = close_pair(state, column, task, dt, re_extrapolates);
       ledger.friction_loss += rubbed;
       ledger.contact_loss -= rubbed;
       if (remembers) put_gain(state, column);

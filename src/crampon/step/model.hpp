@@ -42,6 +42,7 @@ struct MaterialField {
   int body = -1;                ///< rigid: index into Model::rigid_bodies
   std::uint16_t bonded_to = 0;  ///< the lowest field to which a chain of bonded laws joins it; itself where there is none
   double thickness = 1;         ///< m, 2D
+  double half_size = 0;         ///< of its particles, along their longest side, cells
   EdgeMap edge;                 ///< from the mean position of its particles about a node to its edge
 };
 
@@ -57,7 +58,7 @@ struct RigidBody {
   /// face: meets others at the face of its shape. particles: as a field of particles among others (N13 sec. 3). nodes: gives its velocity to
   /// the nodes in its shape, instead of meeting what is there.
   enum class Acts { face, particles, nodes } acts = Acts::face;
-  bool has_particles = true;    ///< else it is a wall
+  bool is_empty = false;        ///< it has no particles
   std::uint16_t condition = 0;  ///< nodes: as this condition, whose components say which
   bool prescribes() const { return acts == Acts::nodes; }
 };

@@ -5,7 +5,7 @@
 #include "crampon/step/boundary.hpp"
 #include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/find_contacts.hpp"
-#include "crampon/step/find_face_contacts.hpp"
+#include "crampon/step/find_face_nodes.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/meet_faces.hpp"
 #include "crampon/step/rigid_faces.hpp"

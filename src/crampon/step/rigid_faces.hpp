@@ -65,6 +65,12 @@ double longest_reach(const Model<Dim>& model) {
 
 /// Is x, m, nearer than `reach`, m, to the face of a body that others meet by its shape, or inside?
 template <int Dim>
-bool is_near_rigid_face(const State<Dim>& state, const Model<Dim>& model, const Vec<Dim>& x, double reach);
+bool is_near_rigid_face(const State<Dim>& state, const Model<Dim>& model, const Vec<Dim>& x, double reach) {
+  for (std::size_t r = 0; r < model.rigid_bodies.size(); ++r) {
+    const RigidBody<Dim>& body = model.rigid_bodies[r];
+    if (body.acts == RigidBody<Dim>::Acts::face && distance_from(body, state.rigid[r].start, x) < reach) return true;
+  }
+  return false;
+}
 
 }  // namespace crampon

@@ -1,5 +1,5 @@
 #pragma once
-/// Which nodes of deformable bodies meet the faces of rigid ones, and in what columns (docs/theory/contact.md, rigid faces).
+/// Which nodes of deformable bodies meet the faces of rigid ones (docs/theory/contact.md, rigid faces).
 
 #include "crampon/step/model.hpp"
 #include "crampon/step/state.hpp"
@@ -9,9 +9,5 @@ namespace crampon {
 /// After find_contacts: what moves as one at the own nodes of a block, its parts of faces, and the particles before these.
 template <int Dim, class Shape>
 void find_face_nodes(State<Dim>& state, const Model<Dim>& model, std::size_t block);
-
-/// Gathers the parts of all blocks in columns. Serial.
-template <int Dim>
-void link_face_columns(State<Dim>& state, const Model<Dim>& model);
 
 }  // namespace crampon

@@ -1,0 +1,182 @@
+#include "crampon/step/face_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crampon/geometry/way_out.hpp"
+#include "crampon/step/face_to_face.hpp"
+
+namespace crampon {
+
+namespace {
+
+/// Normals that differ by less than this (cosine) are those of one face.
+constexpr double of_one_face = 0.9;
+
+/// Does x see an edge or a corner of the body, or a side that curves as sharply: does the normal turn with x as about a point of the surface? Or
+/// does the surface end before the point of it that x takes for the nearest? (Distances of combined shapes may be those of a part's face that
+/// another part has cut away.)
+template <int Dim>
+bool sees_edge(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x, const RigidFaceView<Dim>& view, double cell) {
+  if (std::fabs(distance_from(body, pose, x - view.out * view.distance)) > 1e-6 * cell) return true;
+  if (view.distance < 1e-6 * cell) return false;
+  const double step = 1e-3 * std::fmin(view.distance, cell);
+  for (int k = 0; k < Dim; ++k) {
+    Vec<Dim> along;
+    along[k] = 1;
+    along -= view.out * dot(along, view.out);
+    if (norm(along) < 0.5) continue;
+    along = normalized(along);
+    const Vec<Dim> turned = see_face(body, pose, x + along * step).out - view.out;
+    if (norm(turned) * view.distance > 0.5 * step) return true;
+  }
+  return false;
+}
+
+/// Where the surface of its body is before a particle.
+template <int Dim>
+class Surface {
+ public:
+  Surface(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {}
+
+  /// From the middle of a particle to the nearest point of its body's surface now, m, as the particle's deformation carries it; zero: the
+  /// particle lies deep in its body.
+  Vec<Dim> nearest(const CloudPoint<Dim>& point) const {
+    const Vec<Dim>& surface = model_.surface[state_.particles.id[point.particle]];
+    const std::array<Vec<Dim>, Dim> F = deformation(point);
+    Vec<Dim> now;
+    for (int k = 0; k < Dim; ++k) now += F[k] * surface[k];
+    return now;
+  }
+
+  /// The way along n to the surface, m, where another side of the body is nearer; none within a cell and a half.
+  std::optional<double> along(const CloudPoint<Dim>& point, const Vec<Dim>& n) const {
+    const std::array<Vec<Dim>, Dim> F = deformation(point);
+    Vec<Dim> line, stretched;
+    for (int k = 0; k < Dim; ++k) line[k] = dot(F[k], n);
+    line = normalized(line);
+    Vec<3> from, to;
+    for (int k = 0; k < Dim; ++k) {
+      stretched += F[k] * line[k];
+      from[static_cast<std::size_t>(k)] = state_.particles.original[point.particle][k];
+      to[static_cast<std::size_t>(k)] = line[k];
+    }
+    const double cell = model_.grid.smallest_cell();
+    const auto way = way_out(*model_.shapes[state_.particles.body[point.particle]], from, to, 1.5 * cell, 1e-9 * cell);
+    if (!way) return std::nullopt;
+    return *way * norm(stretched);
+  }
+
+ private:
+  /// Columns of the deformation gradient since the start.
+  std::array<Vec<Dim>, Dim> deformation(const CloudPoint<Dim>& point) const {
+    if (model_.undeformed.empty()) return point.F;
+    const std::array<Vec<Dim>, Dim>& back = model_.undeformed[state_.particles.id[point.particle]];
+    std::array<Vec<Dim>, Dim> F{};
+    for (int k = 0; k < Dim; ++k) {
+      for (int j = 0; j < Dim; ++j) F[k] += point.F[j] * back[k][j];
+    }
+    return F;
+  }
+
+  const State<Dim>& state_;
+  const Model<Dim>& model_;
+};
+
+}  // namespace
+
+template <int Dim>
+void FaceSampler<Dim>::sample(const FaceGroup<Dim>& group, const std::size_t* slots, const FacePart<Dim>& part,
+                              const std::vector<CloudPoint<Dim>>& points, std::vector<FaceSample<Dim>>& out) const {
+  const bool unknown = std::any_of(points.begin(), points.end(), [&](const CloudPoint<Dim>& point) {
+    return std::isnan(model_.surface[state_.particles.id[point.particle]][0]);
+  });
+  if (unknown && has_even_cells(model_.grid)) {
+    sample_sums(group, slots, part, out);
+  } else {
+    sample_particles(part, points, out);
+  }
+}
+
+template <int Dim>
+RigidFaceView<Dim> FaceSampler<Dim>::see(const FacePart<Dim>& part, const Vec<Dim>& x) const {
+  return see_face(model_.rigid_bodies[part.body], state_.rigid[part.body].start, x);
+}
+
+/// How the surface of a body, which is at x + to_surface, faces the rigid one. Edges of either: where the rigid body shows an edge, it is the
+/// surface of the other that tells the normal, and the distance is that of its point; where the other does, the way along the normal of
+/// the rigid body counts.
+template <int Dim>
+template <class Along>
+std::optional<FaceSample<Dim>> FaceSampler<Dim>::before_face(const FacePart<Dim>& part, const Vec<Dim>& x, const Vec<Dim>& to_surface,
+                                                             Along along) const {
+  const RigidFaceView<Dim> view = see(part, x);
+  if (view.out == Vec<Dim>{}) return std::nullopt;
+  const Vec<Dim> n = -view.out;
+  const double depth = dot(to_surface, n);
+  const bool facing = depth > of_one_face * norm(to_surface);
+  const RigidBody<Dim>& body = model_.rigid_bodies[part.body];
+  if (sees_edge(body, state_.rigid[part.body].start, x, view, model_.grid.smallest_cell()))
+    return FaceSample<Dim>{0, see(part, x + to_surface).distance, normalized(to_surface), true};
+  if (facing) return FaceSample<Dim>{0, view.distance - depth, n, false};
+  const auto way = along(n);
+  if (!way) return std::nullopt;
+  return FaceSample<Dim>{0, view.distance - *way, n, false};
+}
+
+/// Where nobody knows the surface of the particles' body, their mean position tells of its edge, as between bodies (docs/theory/contact.md,
+/// detection): smoother than their outlines.
+template <int Dim>
+void FaceSampler<Dim>::sample_sums(const FaceGroup<Dim>& group, const std::size_t* slots, const FacePart<Dim>& part,
+                                   std::vector<FaceSample<Dim>>& out) const {
+  Vec<Dim> mean;
+  for (std::uint32_t s = group.first_slot; s < group.end_slot; ++s) mean += state_.nodes.contact[slots[s]].present();
+  mean = mean * (1 / group.m);
+  const auto to_edge = [&](const Vec<Dim>& n) {
+    const PlaneInCells plane = plane_in_cells(model_.grid.cell, n);
+    return -model_.fields[part.field].edge.edge_distance(-dot(mean, n) / plane.h, plane) * plane.h - dot(mean, n);
+  };
+  const Vec<Dim> out_of_material = normalized(part.gradient);
+  if (out_of_material == Vec<Dim>{}) return;
+  auto sample = before_face(part, group.x + mean, out_of_material * to_edge(out_of_material),
+                            [&](const Vec<Dim>& n) { return std::optional(to_edge(n)); });
+  if (!sample) return;
+  // Near the end of a body's side its gradient leans, and the way along it is not the way along n.
+  if (!sample->edge) sample->gap = see(part, group.x + mean).distance - to_edge(sample->n);
+  sample->S = dot(part.gradient, sample->n);
+  if (sample->S > 0) out.push_back(*sample);
+}
+
+template <int Dim>
+void FaceSampler<Dim>::sample_particles(const FacePart<Dim>& part, const std::vector<CloudPoint<Dim>>& points,
+                                        std::vector<FaceSample<Dim>>& out) const {
+  const Surface<Dim> surface(state_, model_);
+  for (CloudPoint<Dim> point : points) {
+    const std::uint8_t mirrored = point.mirrored;
+    for (int k = 0; k < Dim; ++k) {  // itself, not its image
+      if (mirrored >> k & 1u) point.mirror_deformation(k);
+    }
+    const Vec<Dim> x = state_.particles.position(point.particle);
+    std::optional<FaceSample<Dim>> sample;
+    const Vec<Dim> to_surface = surface.nearest(point);
+    if (std::isnan(to_surface[0])) {  // nobody knows: the particle's own outline
+      const RigidFaceView<Dim> view = see(part, x);
+      double half = 0;
+      for (const Vec<Dim>& r : point.half_edges()) half += std::fabs(dot(view.out, r));
+      sample = FaceSample<Dim>{0, view.distance - half, -view.out, false};
+    } else if (to_surface != Vec<Dim>{}) {
+      sample = before_face(part, x, to_surface, [&](const Vec<Dim>& n) { return surface.along(point, n); });
+    }
+    if (!sample || sample->n == Vec<Dim>{}) continue;
+    sample->S = point.S;
+    for (int k = 0; k < Dim; ++k) {
+      if (mirrored >> k & 1u) sample->n[k] = -sample->n[k];
+    }
+    out.push_back(*sample);
+  }
+}
+
+template class FaceSampler<2>;
+template class FaceSampler<3>;
+
+}  // namespace crampon

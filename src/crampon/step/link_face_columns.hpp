@@ -1,0 +1,13 @@
+#pragma once
+/// In what columns nodes meet the faces of rigid bodies, with what normal and gap (docs/theory/contact.md, rigid faces).
+
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+/// Gathers the parts that find_face_nodes has found in all blocks in columns, and columns that share nodes in sets. Serial.
+template <int Dim>
+void link_face_columns(State<Dim>& state, const Model<Dim>& model);
+
+}  // namespace crampon
