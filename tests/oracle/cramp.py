@@ -25,6 +25,7 @@ class Model:
         self.lead = 0.0  # s: positions of particles and crack points are those of the present time plus this
         self.update = case.get("stress_update", "usavg")
         self.positions = case.get("positions", "strain")
+        self.rotation = case.get("rotation", "carried")
         self.shape = case.get("shape", "linear")
         self.half_size = 1 / (2 * case.get("ppc", 2))
         self.damping = function(case.get("damping", 0.0))
@@ -48,6 +49,7 @@ class Model:
             for p in chosen:
                 p.load.append((share, [function(f) for f in load["value"]]))
         extend(self)
+        self.find_pieces()
         choose_carriers(self)
         self.contact_state = {}  # (node, crack, others): Task-4 state of the last step
         self.crack_side = {}     # (node, crack): side of the particles that look at the node across the crack
@@ -64,6 +66,7 @@ class Model:
                 p.x = [p.x[k] + further * p.v[k] for k in range(2)]
             carry_cracks(self)
         self.assign_fields()                                   # Task 0
+        self.find_turns()
         self.project_momentum()                                # Task 1
         if self.order == "boundary_first":                     # Task 2
             self.p_int = {key: list(p) for key, p in self.p.items()}
@@ -85,6 +88,7 @@ class Model:
                     p[k] = self.p_int[key][k]                  # N13 Eq. 2 starts from p_int (CONVENTIONS 27)
                 p[k] += dt * self.f[key][k]
         self.adjust_contact(4)
+        self.answer_turns()
         moved = self.update_particles()                        # Task 5
         if self.update in ("musl", "usavg") or (self.update == "usf" and self.positions == "strain"):  # Task 6
             self.project_new_momentum()
@@ -229,6 +233,7 @@ class Model:
         """N03 Eqs. 26, 27, and mean positions per field (contact.md 2.2)."""
         self.m, self.p, self.volume = {}, {}, {}
         self.x_sum, self.X_sum = {}, {}
+        self.first_moment, self.pieces_at = {}, {}
         for p in self.particles:
             area = p.area()
             for key, S, G, R, planes, offset in p.pairs:
@@ -243,12 +248,98 @@ class Model:
                     momentum[k] += R[k] * m * (p.v[k] - offset[0][k])
                     now[k] += m * x[k]
                     then[k] += m * X[k]
+                across, node = {s.axis for s in planes}, self.grid.position(key[0])
+                d = self.first_moment.setdefault(key, [0.0, 0.0])
+                if S != 0:
+                    self.pieces_at.setdefault(key, {})[id(p.piece)] = p.piece
+                for k in range(2):  # no arm across a plane at which the pair is folded
+                    d[k] += m * (node[k] if k in across else p.x[k])
                 self.volume[key[0]] = self.volume.get(key[0], 0.0) + area * S
         if self.reference_volume is None:
             self.reference_volume = dict(self.volume)
+        self.add_turns("turn", -self.lead)
         self.find_constraints()
         self.zero_on_planes(self.p)
         self.find_pairs()
+
+    # ---------------------------------------------------------------- rotation carried (docs/decisions/0020-rotation.md)
+    def find_pieces(self):
+        """Particles hang together in the same or in neighbouring cells when no crack but a bonded one lies between. A mirror at a piece holds it."""
+        cells = [tuple(math.floor((p.x[k] - (self.grid.x0, self.grid.y0)[k]) / self.grid.h) for k in range(2)) for p in self.particles]
+        parting = [c for c in self.cracks if c.law != "bonded"]
+        for p in self.particles:
+            p.piece = None
+        self.pieces = []
+        for first in range(len(self.particles)):
+            if self.particles[first].piece:
+                continue
+            piece = SimpleNamespace(particles=[], held=False)
+            self.pieces.append(piece)
+            reached = [first]
+            self.particles[first].piece = piece
+            while reached:
+                i = reached.pop()
+                p = self.particles[i]
+                piece.particles.append(p)
+                piece.held |= any(abs(s.distance(p.x)) < 1.5 * self.half_size * self.grid.h for s in self.symmetries)
+                for j, q in enumerate(self.particles):
+                    if q.piece or max(abs(cells[i][k] - cells[j][k]) for k in range(2)) > 1:
+                        continue
+                    if not any(crosses_crack(tuple(p.x), tuple(q.x), c.path(c.plane))[0] for c in parting):
+                        q.piece = piece
+                        reached.append(j)
+
+    def find_turns(self):
+        """Of every piece as if it were rigid: centre, moment of inertia, angular velocity."""
+        for piece in self.pieces:
+            piece.grasped = any(s not in self.symmetries for p in piece.particles for pair in p.pairs for s in pair[4])
+            M = sum(p.mass for p in piece.particles)
+            piece.centre = [sum(p.mass * p.x[k] for p in piece.particles) / M for k in range(2)]
+            v = [sum(p.mass * p.v[k] for p in piece.particles) / M for k in range(2)]
+            arms = [(p, p.x[0] - piece.centre[0], p.x[1] - piece.centre[1]) for p in piece.particles]
+            piece.inertia = sum(p.mass * (x * x + y * y) for p, x, y in arms)
+            piece.turns = self.rotation == "carried" and not piece.held and not piece.grasped and piece.inertia > 0
+            if piece.turns:
+                piece.turn = sum(p.mass * (x * (p.v[1] - v[1]) - y * (p.v[0] - v[0])) for p, x, y in arms) / piece.inertia
+            piece.answer = 0.0  # rad/s2
+
+    def turning(self, key):
+        """The piece whose rotation a node has a part in: that of all its particles; none where they are of several."""
+        pieces = list(self.pieces_at.get(key, {}).values())
+        return pieces[0] if len(pieces) == 1 and pieces[0].turns else None
+
+    def arm(self, key):
+        """Sum of m_p S (x_i - x_p) over the particles about a node in its field."""
+        x = self.grid.position(key[0])
+        return [self.m[key] * x[k] - self.first_moment[key][k] for k in range(2)]
+
+    def answer_turns(self):
+        """What nodes have beside sum S m v does work; particles take it up as a rigid turn, so that energy and angular momentum are kept."""
+        for piece in self.pieces:
+            piece.couple = piece.torque = 0.0
+        for key, f in self.f.items():
+            piece = self.turning(key)
+            if not piece:
+                continue
+            a = [f[k] / self.m[key] for k in range(2)]
+            e = self.arm(key)
+            piece.couple += e[0] * a[1] - e[1] * a[0]
+            x = self.grid.position(key[0])
+            piece.torque += (x[0] - piece.centre[0]) * f[1] - (x[1] - piece.centre[1]) * f[0]
+        for piece in self.pieces:
+            if not piece.turns:
+                continue
+            piece.answer = piece.couple / piece.inertia
+            piece.turn_after = piece.turn + self.dt * piece.torque / piece.inertia
+
+    def add_turns(self, which, ahead):
+        """Of velocities of a time that is ahead of the positions by so much: w x e + ahead w x (w x e)."""
+        for key, p in self.p.items():
+            piece = self.turning(key)
+            if piece:
+                e, turn = self.arm(key), getattr(piece, which)
+                p[0] -= turn * e[1] + ahead * turn ** 2 * e[0]
+                p[1] += turn * e[0] - ahead * turn ** 2 * e[1]
 
     def conditions(self, t):
         """Boundary conditions that a step starting at t belongs to."""
@@ -456,6 +547,8 @@ class Model:
             for key, S, G, R, _, offset in p.pairs:
                 for k in range(2):
                     p.v[k] += S * (self.dt * R[k] * self.f[key][k] / self.m[key] + offset[1][k] - offset[0][k])
+            p.v[0] -= self.dt * p.piece.answer * (p.x[1] - p.piece.centre[1])
+            p.v[1] += self.dt * p.piece.answer * (p.x[0] - p.piece.centre[0])
         return self.moved_positions()
 
     def moved_positions(self):
@@ -470,6 +563,7 @@ class Model:
             for key, S, G, R, _, offset in p.pairs:
                 for k in range(2):
                     self.p[key][k] += R[k] * p.mass * (p.v[k] - offset[1][k]) * S
+        self.add_turns("turn_after", self.dt - self.lead)
         self.zero_on_planes(self.p)
 
     def gradient(self, p, end):

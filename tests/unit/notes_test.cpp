@@ -246,16 +246,17 @@ TEST(Notes, UnstableMethod) {
 }
 
 TEST(Notes, BrakedRotation) {
-  const std::string method = "[method]\nshape_functions = \"gimp\"\ntransfer = ";
+  const std::string method = "[method]\nshape_functions = \"gimp\"\nrotation = \"n03\"\ntransfer = ";
   std::string turning = block;
   turning.replace(turning.find("[[body]]"), 8, "[[body]]\nspin = [2]");
   const std::string text = note(turning + method + "{ kind = \"xpic\", order = 2 }\n");
   EXPECT_NE(
-      text.find(".spin: the body \"block\" turns, and method.transfer brakes rotation (what particles take from nodes has lost a part "
-                "of the spin); use flip without pic where rotation must last"),
+      text.find(".spin: the body \"block\" turns, and method.transfer brakes rotation (momenta do not carry rotation, and what particles "
+                "take from nodes has lost a part of the spin); use rotation = \"carried\", or flip without pic"),
       std::string::npos)
       << text;
   EXPECT_EQ(notes(turning + method + "\"flip\"\n").size(), 0U);
+  EXPECT_EQ(notes(turning + "[method]\nshape_functions = \"gimp\"\ntransfer = { kind = \"xpic\", order = 2 }\n").size(), 0U);
   EXPECT_EQ(notes(block + method + "{ kind = \"fmpm\", order = 2 }\n").size(), 0U);
 }
 

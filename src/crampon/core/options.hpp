@@ -8,6 +8,9 @@ enum class StressUpdate { usl, musl, usf, usavg };
 /// With which nodal velocity particles move: with the one that strains them, or with that of N03 Eq. 30 (docs/theory/step.md, positions).
 enum class PositionUpdate { strain, n03 };
 
+/// Whether momenta carry the rotation of bodies, or are those of N03 Eq. 26 (step/rotation.hpp).
+enum class RotationTransfer { carried, n03 };
+
 /// By what crack points read the velocities of nodes: linear functions, or those of a particle without size (B-splines where particles
 /// have them).
 enum class CrackShapeFunctions { linear, same };

@@ -64,6 +64,8 @@ const Declaration<MethodInput>& method_declaration() {
                   "when stress is updated: last, last after a second extrapolation, first, or half first and half last")
           .choice("positions", &MethodInput::positions, {{"strain", PositionUpdate::strain}, {"n03", PositionUpdate::n03}},
                   "particles move with the velocity that strains them, or with that of N03 Eq. 30, which tears bodies in tension")
+          .choice("rotation", &MethodInput::rotation, {{"carried", RotationTransfer::carried}, {"n03", RotationTransfer::n03}},
+                  "momenta of nodes carry the rotation of bodies, which then keep their angular momentum, or are those of N03 Eq. 26")
           .choice("shape_functions", &MethodInput::shape_functions,
                   {{"linear", ShapeFunctionKind::linear},
                    {"gimp", ShapeFunctionKind::gimp},

@@ -51,6 +51,7 @@ struct TimeInput : Located {
 struct MethodInput : Located {
   StressUpdate stress_update = StressUpdate::usavg;
   PositionUpdate positions = PositionUpdate::strain;
+  RotationTransfer rotation = RotationTransfer::carried;
   ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
   CrackShapeFunctions crack_shape_functions = CrackShapeFunctions::linear;
   ValueFunction damping;           ///< grid damping kappa of N03 Eq. 4, 1/s, may vary in time

@@ -267,6 +267,7 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
                                                                     : StressState::three_dimensional;
   model.stress_update = problem.method.stress_update;
   model.positions = problem.method.positions;
+  model.rotation = problem.method.rotation;
   model.shape_functions = problem.method.shape_functions;
   model.crack_shape_functions = problem.method.crack_shape_functions;
   model.boundary_order = problem.method.boundary_order;

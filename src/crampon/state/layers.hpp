@@ -81,6 +81,7 @@ struct PairTarget {
   std::uint8_t layer = 0;     ///< of the block
   std::uint8_t flip = 0;      ///< bit k: component k changes sign in the exchange (CONVENTIONS 29)
   std::uint8_t mirrored = 0;  ///< bit k: the mirror node is on the other side of a plane across axis k
+  std::uint8_t held = 0;      ///< 1: folded at a face of prescribed velocity
   std::uint16_t offset = 0;   ///< index into the block's offsets: what is read at the mirror node, its signs changed, plus this
 };
 

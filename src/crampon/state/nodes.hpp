@@ -10,6 +10,8 @@
 #include "crampon/core/vector.hpp"
 #include "crampon/state/blocks.hpp"
 #include "crampon/state/layers.hpp"
+#include "crampon/state/particles.hpp"
+#include "crampon/state/rotation.hpp"
 
 namespace crampon {
 
@@ -18,6 +20,15 @@ template <int Dim>
 struct MotionRecord {
   Pack r[motion_packs<Dim>];
 };
+
+template <int Dim>
+inline NodalVector<Dim> acceleration(const MotionRecord<Dim>& motion) {
+  if constexpr (Dim == 2) {
+    return Pair{motion.r[0][2], motion.r[0][3]};
+  } else {
+    return motion.r[1];
+  }
+}
 
 /// Sums behind contact at a node, per layer: {V, m(x - x_i)}, {grad V, m(X - x_i)} (N03 Eq. 8, N13 sec. 3 step 1); in 2D V is the area, m2,
 /// and two packs hold all: {V, m x, m y, dV/dx}, {dV/dy, m X, m Y, m c}. In 3D {V, m x}, {m c, m X}, {grad V, 0}. c is what a particle
@@ -99,12 +110,16 @@ struct Nodes {
 
   // Tiles: private to a block, added up by assembly.
   AlignedArray<Pack> tile_momentum;
+  AlignedArray<NodalVector<Dim>> tile_moment;
+  AlignedArray<PieceMark> tile_piece;
   AlignedArray<NodalVector<Dim>> tile_force;
   AlignedArray<ContactSums<Dim>> tile_contact;
   AlignedArray<CrossingSums> tile_crossing;
 
   // Nodes of blocks.
   AlignedArray<Pack> momentum;              ///< {p, m} with the mass in lane Dim: kg m/s, kg
+  AlignedArray<NodalVector<Dim>> arm;       ///< sum of m (x_i - x_p) over particles, kg m; where rotation is carried
+  AlignedArray<PieceMark> piece;            ///< whose rotation the node has a part in, where fields have several pieces
   AlignedArray<NodalVector<Dim>> force;     ///< N
   AlignedArray<NodalVector<Dim>> velocity;  ///< what the next stress update reads, m/s
   AlignedArray<MotionRecord<Dim>> motion;   ///< {v', a} of Task 4
@@ -112,8 +127,9 @@ struct Nodes {
   AlignedArray<CrossingSums> crossing;
 
   std::size_t bytes() const {
-    return tile_momentum.bytes() + tile_force.bytes() + tile_contact.bytes() + tile_crossing.bytes() + momentum.bytes() + force.bytes() +
-           velocity.bytes() + motion.bytes() + contact.bytes() + crossing.bytes();
+    return tile_momentum.bytes() + tile_moment.bytes() + tile_piece.bytes() + arm.bytes() + piece.bytes() + tile_force.bytes() +
+           tile_contact.bytes() + tile_crossing.bytes() + momentum.bytes() + force.bytes() + velocity.bytes() + motion.bytes() +
+           contact.bytes() + crossing.bytes();
   }
 };
 

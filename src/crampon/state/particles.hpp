@@ -98,6 +98,16 @@ struct Particles {
     x[1] = b;
     if constexpr (Dim == 3) x[2] = c;
   }
+  /// The same of velocities.
+  void pack_velocities(std::size_t pack, Pack* v) const {
+    const Pack* r = &motion[pack * lanes * motion_packs<Dim>];
+    constexpr int s = motion_packs<Dim>;
+    Pack a = r[s - 1], b = r[2 * s - 1], c = r[3 * s - 1], d = r[4 * s - 1];
+    transpose(a, b, c, d);
+    v[0] = Dim == 2 ? c : a;
+    v[1] = Dim == 2 ? d : b;
+    if constexpr (Dim == 3) v[2] = c;
+  }
   bool has_domains() const { return domain.size() > 0; }
   /// {m v, m} of particle p, the mass in lane Dim (N03 Eq. 26).
   Pack momentum_record(std::size_t p, double mass) const {

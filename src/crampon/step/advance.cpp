@@ -23,6 +23,7 @@
 #include "crampon/step/project_loads.hpp"
 #include "crampon/step/reorder.hpp"
 #include "crampon/step/rigid_motion.hpp"
+#include "crampon/step/rotation.hpp"
 #include "crampon/step/take_velocities.hpp"
 #include "crampon/step/update_particles.hpp"
 
@@ -102,7 +103,10 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
   phases.serial("prepare", [&] {
     if (state.must_reorder) reorder<Dim, Shape>(state, model);
     start_rigid_motion(state, model, dt);
-    if (state.step == 0) choose_carriers<Dim, Shape>(state, model);
+    if (state.step == 0) {
+      choose_carriers<Dim, Shape>(state, model);
+      start_rotations(state, model);
+    }
     lead_positions<Dim, Shape>(state, model, dt);
     watch_motion(state.particles, watched, lead);
     evaluate_conditions(state, model, dt);
@@ -114,6 +118,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
     record_initial_volume<Dim, Shape>(state, model);
   });
   phases.blocks("project momentum", [&](B b) { project_momentum<Dim, Shape>(state, model, b); });  // Task 1
+  phases.serial("project momentum", [&] { find_rotations(state); });
   if (model.any_contact()) {
     phases.blocks("find contact", [&](B b) { find_shared_nodes<Dim, Shape>(state, model, b); });
     phases.blocks("find contact", [&](B b) { project_contact_sums<Dim, Shape>(state, model, b); });
@@ -132,7 +137,10 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
   contact(
       "update momenta", ContactTask::four,
       [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); },  // Tasks 3, 4
-      [&](B b) { settle_updated_momenta(state, model, b, dt, body_force, damping); });
+      [&](B b) {
+        settle_updated_momenta(state, model, b, dt, body_force, damping);
+        sum_couples(state, model, b);
+      });
   phases.blocks("account loads", [&](B b) {
     account_loads<Dim, Shape>(state, model, b, dt);
     account_mirrored_forces<Dim, Shape>(state, model, b, dt, load_values, body_force, damping);
@@ -143,12 +151,18 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
   if (transfer.terms > 0) {  // XPIC, FMPM
     phases.blocks("filter velocities", [&](B b) { start_series(state, transfer, b, dt); });
     for (int term = 2; term <= transfer.terms; ++term) {
-      phases.blocks("filter velocities", [&](B b) { project_term<Dim, Shape>(state, model, transfer, b, term); });
+      phases.blocks("filter velocities", [&](B b) {
+        sum_read_rotation(state, model, b, ReadVelocity::term);
+        project_term<Dim, Shape>(state, model, transfer, b, term);
+      });
+      phases.serial("filter velocities", [&] { find_term_spins(state); });
       contact(
-          "filter velocities", ContactTask::term, [&](B b) { gather_term<Dim, Shape>(state, model, b); },
+          "filter velocities", ContactTask::term, [&](B b) { gather_term<Dim, Shape>(state, model, transfer, b, dt); },
           [&](B b) { add_term(state, model, b, dt); });
     }
   }
+  if (rule.nodal != 0) phases.blocks("update velocities", [&](B b) { sum_read_rotation(state, model, b, ReadVelocity::motion); });
+  phases.serial("update velocities", [&] { answer_couples(state, rule); });
   if (transfer.re_extrapolates) {
     phases.blocks("update velocities", [&](B b) {  // Tasks 5, 6
       if (rule.is_flip()) {
@@ -158,7 +172,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
       }
     });
     contact(
-        "contact and boundaries again", ContactTask::six, [&](B b) { gather_end_momenta<Dim, Shape>(state, model, b); },  // Task 6
+        "contact and boundaries again", ContactTask::six, [&](B b) { gather_end_momenta<Dim, Shape>(state, model, b, dt); },  // Task 6
         [&](B b) { settle_end_momenta(state, model, b, dt); });
     phases.blocks("account loads", [&](B b) {
       account_loads_anew<Dim, Shape>(state, b, dt);

@@ -156,6 +156,7 @@ class BlockAssignment {
     }
     target.flip = static_cast<std::uint8_t>(pair.flip);
     target.mirrored = static_cast<std::uint8_t>(pair.mirrored);
+    target.held = pair.held;
     target.offset = offset_number(pair);
     if (pair.mirror) return static_cast<int>(pair.mirror - model_.symmetries.data());
     x_i = pair.x_i;
@@ -378,6 +379,14 @@ void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::
   using T = Tile<Dim, Shape>;
   nodes.tile_momentum.resize_discarding(nodes.tile_slots * T::nodes);
   nodes.tile_force.resize_discarding(nodes.tile_slots * T::nodes);
+  if (state.rotations.any()) {
+    nodes.tile_moment.resize_discarding(nodes.tile_slots * T::nodes);
+    nodes.arm.resize_discarding(nodes.node_slots * block_nodes<Dim>);
+  }
+  if (state.rotations.several()) {
+    nodes.tile_piece.resize_discarding(nodes.tile_slots * T::nodes);
+    nodes.piece.resize_discarding(nodes.node_slots * block_nodes<Dim>);
+  }
   nodes.momentum.resize_discarding(nodes.node_slots * block_nodes<Dim>);
   nodes.force.resize_discarding(nodes.node_slots * block_nodes<Dim>);
   nodes.velocity.resize_discarding(nodes.node_slots * block_nodes<Dim>);

@@ -5,6 +5,7 @@
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/meet_faces.hpp"
 #include "crampon/step/packs.hpp"
+#include "crampon/step/rotation.hpp"
 #include "crampon/step/tile_buffer.hpp"
 
 namespace crampon {
@@ -23,14 +24,6 @@ void for_slots(const State<Dim>& state, const Model<Dim>& model, std::size_t b, 
   }
 }
 
-template <int Dim>
-NodalVector<Dim> acceleration(const MotionRecord<Dim>& motion) {
-  if constexpr (Dim == 2) {
-    return Pair{motion.r[0][2], motion.r[0][3]};
-  } else {
-    return motion.r[1];
-  }
-}
 template <int Dim>
 NodalVector<Dim> moving(const MotionRecord<Dim>& motion) {
   return leading<Dim>(motion.r[0]);
@@ -82,12 +75,13 @@ void project_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer
 }
 
 template <int Dim, class Shape>
-void gather_term(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+void gather_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer& transfer, std::size_t b, double dt) {
   Nodes<Dim>& nodes = state.nodes;
   const BlockLayers<Dim>& layers = nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
     assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_momentum, &nodes.momentum[layers.slot(l, 0)]);
   }
+  carry_rotation(state, b, &PieceRotation<Dim>::spin_term, (transfer.of_start ? 0. : dt) - state.particles.lead);
   for_slots(state, model, b, [&](std::size_t i, bool deformable) {
     Pack& p = nodes.momentum[i];
     const double mass = p[Dim];
@@ -116,7 +110,7 @@ template void start_series<2>(State<2>&, const StepTransfer&, std::size_t, doubl
 template void start_series<3>(State<3>&, const StepTransfer&, std::size_t, double);
 #define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                          \
   template void project_term<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, const StepTransfer&, std::size_t, int); \
-  template void gather_term<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);
+  template void gather_term<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, const StepTransfer&, std::size_t, double);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

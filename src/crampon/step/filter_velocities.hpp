@@ -18,7 +18,7 @@ void project_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer
 /// Own nodes of a block: the next term w - A w. Faces that Task 4 found in contact part or slide by it no more than the state of their contact
 /// lets them.
 template <int Dim, class Shape>
-void gather_term(State<Dim>& state, const Model<Dim>& model, std::size_t block);
+void gather_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer& transfer, std::size_t b, double dt);
 /// Adds it to the velocity that particles read. Prescribed components have none.
 template <int Dim>
 void add_term(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt);

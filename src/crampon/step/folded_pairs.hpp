@@ -20,6 +20,7 @@ struct FoldedPair {
   unsigned flip = 0;                      ///< bit k: component k changes sign
   Vec<Dim> offset_start, offset_end;      ///< m/s, at the start and the end of the step
   std::array<std::uint16_t, Dim> by{};    ///< the condition that changed the sign last
+  bool held = false;                      ///< folded at a face of prescribed velocity
   const SymmetryPlane* mirror = nullptr;  ///< the plane, when one symmetry plane is all there is
 
   bool folded() const { return mirrored != 0; }
@@ -82,6 +83,7 @@ class PairFolder {
     if (!(held_.axes(face) >> axis & 1u) && !step_onto_face(x_p, axis, face)) return;
     turn(pair, axis, face[k]);
     pair.mirror = nullptr;
+    pair.held = true;
     held_.for_components(face, [&](const auto& c) { flip(pair, c.axis, c.condition, c.start, c.end); });
   }
 

@@ -127,6 +127,7 @@ struct Model {
   TransferSpec transfer;
   StressUpdate stress_update = StressUpdate::usavg;
   PositionUpdate positions = PositionUpdate::strain;
+  RotationTransfer rotation = RotationTransfer::carried;
   ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
   CrackShapeFunctions crack_shape_functions = CrackShapeFunctions::linear;
   BoundaryOrder boundary_order = BoundaryOrder::contact_first;

@@ -9,6 +9,7 @@
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/meet_faces.hpp"
 #include "crampon/step/rigid_faces.hpp"
+#include "crampon/step/rotation.hpp"
 
 namespace crampon {
 
@@ -109,6 +110,8 @@ void find_shared_nodes(State<Dim>& state, const Model<Dim>& model, std::size_t b
 template <int Dim, class Shape>
 void gather_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   if (state.nodes.layers[b].shared.empty()) assemble_momentum<Dim, Shape>(state, b);
+  assemble_arms<Dim, Shape>(state, model, b);
+  carry_rotation(state, b, &PieceRotation<Dim>::spin, -state.particles.lead);
   if (model.any_contact()) {
     assemble_contact_sums<Dim, Shape>(state, b);
     find_contacts<Dim, Shape>(state, model, b);
@@ -197,8 +200,9 @@ void account_body_force(State<Dim>& state, const Model<Dim>& model, std::size_t 
 }
 
 template <int Dim, class Shape>
-void gather_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+void gather_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
   assemble_momentum<Dim, Shape>(state, b);
+  carry_rotation(state, b, &PieceRotation<Dim>::spin_end, dt - state.particles.lead);
   impose_symmetry(state, model, b);
   if (model.boundary_order == BoundaryOrder::boundary_first) impose_end_momenta(state, model, b);
   start_meeting_faces(state, model, b, ContactTask::six);
@@ -226,7 +230,7 @@ CRAMPON_INSTANTIATE(3)
   template void find_shared_nodes<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                               \
   template void gather_start_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);                            \
   template void update_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const Vec<DIM>&, double); \
-  template void gather_end_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);
+  template void gather_end_momenta<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

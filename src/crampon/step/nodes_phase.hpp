@@ -41,7 +41,7 @@ void account_body_force(State<Dim>& state, const Model<Dim>& model, std::size_t 
 
 /// Task 6: assembles the re-extrapolated momenta (N03 Eq. 31).
 template <int Dim, class Shape>
-void gather_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block);
+void gather_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt);
 /// Adjusts contact, imposes velocities; leaves nodal velocities, with which particles also move unless N03 Eq. 30 is chosen.
 template <int Dim>
 void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt);

@@ -142,9 +142,9 @@ inline Pack folded_momentum(Pack record, const PairTarget& t, const Pack* offset
   return flipped(t.offset == 0 ? record : record - splat(record[Dim]) * offsets[t.offset], t.flip);
 }
 
-/// Adds S_ip * record to every node of a pack's stencils (N03 Eq. 26: the record is {m v, m}); offsets: of the time that v belongs to.
-template <int Dim, class Shape>
-inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, const Pack* offsets, const Pack* record, Pack* tiles) {
+/// Adds S_ip * record to every node of a pack's stencils; fold(lane, target): the record of a pair with a target of its own.
+template <int Dim, class Shape, class Record, class Fold>
+inline void scatter_records(const Stencil<Dim, Shape>& s, const PairTarget* targets, Fold fold, const Record* record, Record* tiles) {
   using T = Tile<Dim, Shape>;
   if constexpr (Stencil<Dim, Shape>::separable) {
     if (!targets) {
@@ -158,24 +158,33 @@ inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, con
     for (int l = 0; l < lanes; ++l) {
       for (int n = 0; n < T::stencil; ++n) {
         const PairTarget t = targets[l * T::stencil + n];
-        Pack& q = tiles[t.layer * T::nodes + t.node];
-        q = fused(splat(s.weight(n, l)), folded_momentum<Dim>(record[l], t, offsets), q);
+        Record& q = tiles[t.layer * T::nodes + t.node];
+        q = fused(splat_as<Record>(s.weight(n, l)), fold(l, t), q);
       }
     }
   } else if (s.of.same_base) {
-    Pack* lowest = tiles + s.of.base[0];
+    Record* lowest = tiles + s.of.base[0];
     for (int n = 0; n < T::stencil; ++n) {
-      Pack& q = lowest[T::steps[n]];
-      Pack sum = q;
-      for (int l = 0; l < lanes; ++l) sum = fused(splat(s.weight(n, l)), record[l], sum);
+      Record& q = lowest[T::steps[n]];
+      Record sum = q;
+      for (int l = 0; l < lanes; ++l) sum = fused(splat_as<Record>(s.weight(n, l)), record[l], sum);
       q = sum;
     }
   } else {
     for (int l = 0; l < lanes; ++l) {
-      Pack* lowest = tiles + s.of.base[l];
-      for (int n = 0; n < T::stencil; ++n) lowest[T::steps[n]] = fused(splat(s.weight(n, l)), record[l], lowest[T::steps[n]]);
+      Record* lowest = tiles + s.of.base[l];
+      for (int n = 0; n < T::stencil; ++n) {
+        lowest[T::steps[n]] = fused(splat_as<Record>(s.weight(n, l)), record[l], lowest[T::steps[n]]);
+      }
     }
   }
+}
+
+/// The same for momenta (N03 Eq. 26: the record is {m v, m}); offsets: of the time that v belongs to.
+template <int Dim, class Shape>
+inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, const Pack* offsets, const Pack* record, Pack* tiles) {
+  scatter_records<Dim, Shape>(
+      s, targets, [&](int l, const PairTarget& t) { return folded_momentum<Dim>(record[l], t, offsets); }, record, tiles);
 }
 
 /// f(node value, S_ip or G_ip index n, pair) over the stencil of lane l, in the order of n.

@@ -19,6 +19,7 @@
 #include "crampon/state/nodes.hpp"
 #include "crampon/state/particles.hpp"
 #include "crampon/state/rigid.hpp"
+#include "crampon/state/rotation.hpp"
 #include "crampon/step/crack_view.hpp"
 
 namespace crampon {
@@ -159,6 +160,8 @@ struct BlockScratch {
   std::vector<NodalForce<Dim>> tractions;
   ContactNodes<Dim> contact;
   FaceNodes<Dim> face_nodes;
+  std::vector<RotationSums> rotation;   ///< per piece of its particles, in the order of runs
+  std::vector<RotationCouple> couples;  ///< per piece at its nodes
   BlockLedger<Dim> ledger;
   BlockHealth health;
 };
@@ -193,9 +196,10 @@ struct State {
   double traction_time_step = std::numeric_limits<double>::infinity();        ///< longest that the springs of traction laws bear now, s
   double least_traction_time_step = std::numeric_limits<double>::infinity();  ///< ... since the start
   std::vector<FailureEvent<Dim>> events;                                      ///< since the start
-  std::vector<RigidMotion<Dim>> rigid;                                        ///< per rigid body
-  std::vector<RigidReaction<Dim>> rigid_reactions;                            ///< per rigid body, last step
-  std::vector<std::int64_t> prescribed_by_rigid;                              ///< node number * Dim + axis, ascending: last step
+  Rotations<Dim> rotations;
+  std::vector<RigidMotion<Dim>> rigid;              ///< per rigid body
+  std::vector<RigidReaction<Dim>> rigid_reactions;  ///< per rigid body, last step
+  std::vector<std::int64_t> prescribed_by_rigid;    ///< node number * Dim + axis, ascending: last step
   std::vector<bool> condition_was_active;
   std::unordered_map<std::int64_t, double> initial_volume;  ///< by node number: of the uncut body at the start, m2 or m3 (CONVENTIONS 10)
   bool must_reorder = true;

@@ -2,6 +2,7 @@
 
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/interpolate.hpp"
+#include "crampon/step/rotation.hpp"
 #include "crampon/step/tile_buffer.hpp"
 
 namespace crampon {
@@ -35,6 +36,7 @@ void for_taken(State<Dim>& state, const Model<Dim>& model, std::size_t b, const 
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
   const auto& offsets = state.nodes.layers[b].offsets.motion;
   BlockLedger<Dim>& ledger = state.scratch[b].ledger;
+  take_up_couples(state, model, b, rule.dt);
   for_packs<Dim, Shape>(state, model, b,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
                           const bool deformable = !model.is_rigid(model.materials[run.material].field);

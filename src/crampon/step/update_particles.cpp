@@ -4,6 +4,7 @@
 #include "crampon/step/interpolate.hpp"
 #include "crampon/step/reorder.hpp"
 #include "crampon/step/rigid_motion.hpp"
+#include "crampon/step/rotation.hpp"
 #include "crampon/step/stress_pass.hpp"
 #include "crampon/step/tile_buffer.hpp"
 
@@ -53,6 +54,7 @@ void correct_lead(Particles<Dim>& particles, std::size_t p, const MotionRecord<D
 template <int Dim, class Shape>
 void update_velocities_and_project(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
   if (!state.blocks.list[b].has_particles()) return;
+  take_up_couples(state, model, b, dt);
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
   Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
   Particles<Dim>& particles = state.particles;
@@ -111,6 +113,7 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
   if (!state.blocks.list[b].has_particles()) return;
   Particles<Dim>& particles = state.particles;
   if (particles.contact.size() > 0 && state.nodes.layers[b].sums_contact) remember_contact<Dim, Shape>(state, model, b);
+  if (with_velocities) take_up_couples(state, model, b, dt);
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
   const Advance<Dim> advance(dt, with_velocities ? dt : 0.);
   const PairOffsets<Dim>& offsets = state.nodes.layers[b].offsets;

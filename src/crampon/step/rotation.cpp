@@ -1,0 +1,323 @@
+#include "crampon/step/rotation.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "crampon/step/assemble.hpp"
+#include "crampon/step/instantiate.hpp"
+#include "crampon/step/transfer.hpp"
+
+namespace crampon {
+
+namespace {
+
+constexpr std::array<std::size_t, 3> next_axis{1, 2, 0};
+
+/// Its rows, about the axes that are free; zero where particles have no extent across an axis.
+std::array<Vec<3>, 3> inverse_of(const Eigen::Matrix3d& inertia, const std::array<bool, 3>& about) {
+  std::array<int, 3> axes{};
+  int n = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (about[static_cast<std::size_t>(k)]) axes[static_cast<std::size_t>(n++)] = k;
+  }
+  Eigen::Matrix3d part = Eigen::Matrix3d::Identity();
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) part(i, j) = inertia(axes[static_cast<std::size_t>(i)], axes[static_cast<std::size_t>(j)]);
+  }
+  std::array<Vec<3>, 3> out{};
+  const double size = part.topLeftCorner(n, n).trace() / std::max(n, 1);
+  if (n == 0 || !(part.topLeftCorner(n, n).determinant() > 1e-12 * std::pow(size, n))) return out;
+  const Eigen::Matrix3d inverse = part.inverse();
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j)
+      out[static_cast<std::size_t>(axes[static_cast<std::size_t>(i)])][static_cast<std::size_t>(axes[static_cast<std::size_t>(j)])] =
+          inverse(i, j);
+  }
+  return out;
+}
+
+Vec<3> cross(const Vec<3>& a, const Vec<3>& b) {
+  return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+}
+
+/// Moment of inertia about the origin less that of the mass m at the distance c from it.
+Eigen::Matrix3d inertia_about_centre(const Vec<3>& squares, const Vec<3>& products, double m, const Vec<3>& c) {
+  Eigen::Matrix3d J;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = next_axis[k], j = next_axis[i];
+    const auto r = static_cast<int>(k), s = static_cast<int>(i);
+    J(r, r) = squares[i] + squares[j] - m * (c[i] * c[i] + c[j] * c[j]);
+    J(r, s) = J(s, r) = -(products[k] - m * c[k] * c[i]);
+  }
+  return J;
+}
+
+/// f(slot, from a point to the node) for the own nodes of a block in a layer.
+template <int Dim, class F>
+void for_own_nodes(const State<Dim>& state, const Model<Dim>& model, std::size_t b, std::size_t layer, const Vec<Dim>& point, F f) {
+  std::size_t slot = state.nodes.layers[b].slot(layer, 0);
+  const NodalVector<Dim> first = as_nodal(model.grid.node_position(state.blocks.list[b].first_node()) - point);
+  const NodalVector<Dim> cell = as_nodal(model.grid.cell);
+  const auto at = [&](int i, int j, int k) {
+    NodalVector<Dim> n = splat_as<NodalVector<Dim>>(0.);
+    n[0] = i, n[1] = j;
+    if constexpr (Dim == 3) n[2] = k;
+    return fused(n, cell, first);
+  };
+#pragma GCC unroll 4
+  for (int k = 0; k < (Dim == 3 ? block_side : 1); ++k) {
+#pragma GCC unroll 4
+    for (int j = 0; j < block_side; ++j) {
+#pragma GCC unroll 4
+      for (int i = 0; i < block_side; ++i) f(slot++, at(i, j, k));
+    }
+  }
+}
+
+/// f(slot, from the piece's point to the node, piece) for the own nodes of a block that have a part in the rotation of a piece.
+template <int Dim, class F>
+void for_turning_nodes(const State<Dim>& state, const Model<Dim>& model, std::size_t b, Vec<Dim> PieceRotation<Dim>::*point, F f) {
+  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  const Rotations<Dim>& rotations = state.rotations;
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    const std::uint32_t piece = rotations.in_field(layers.node[l].field);
+    if (piece == no_piece) continue;
+    if (piece != several_pieces) {
+      for_own_nodes(state, model, b, l, rotations.of_piece[piece].*point, [&](std::size_t i, NodalVector<Dim> r) { f(i, r, piece); });
+    } else {
+      for_own_nodes(state, model, b, l, Vec<Dim>{}, [&](std::size_t i, NodalVector<Dim> x) {
+        const std::uint32_t its = state.nodes.piece[i].piece;
+        if (its < several_pieces) f(i, x - as_nodal(rotations.of_piece[its].*point), its);
+      });
+    }
+  }
+}
+
+/// The entry of a piece among those of a block.
+RotationCouple& couple_of(std::vector<RotationCouple>& couples, std::uint32_t piece) {
+  const auto at = std::find_if(couples.begin(), couples.end(), [&](const RotationCouple& c) { return c.piece == piece; });
+  if (at != couples.end()) return *at;
+  couples.push_back({piece, {}, {}, {}});
+  return couples.back();
+}
+
+template <int Dim>
+std::vector<RotationCouple> total_couples(const State<Dim>& state) {
+  std::vector<RotationCouple> total(state.rotations.of_piece.size());
+  for (const BlockScratch<Dim>& scratch : state.scratch) {
+    for (const RotationCouple& part : scratch.couples) {
+      RotationCouple& sum = total[part.piece];
+      sum.couple += part.couple;
+      sum.torque += part.torque;
+      sum.read += part.read;
+    }
+  }
+  return total;
+}
+
+}  // namespace
+
+template <int Dim>
+void find_rotations(State<Dim>& state) {
+  Rotations<Dim>& rotations = state.rotations;
+  std::vector<RotationSums> total(rotations.of_piece.size());
+  for (const BlockScratch<Dim>& scratch : state.scratch) {
+    for (const RotationSums& part : scratch.rotation) {
+      RotationSums& sum = total[part.piece];
+      sum.held = sum.held || part.held;
+      sum.mass += part.mass;
+      sum.first += part.first;
+      sum.momentum += part.momentum;
+      sum.angular += part.angular;
+      sum.squares += part.squares;
+      sum.products += part.products;
+    }
+  }
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    PieceRotation<Dim>& rotation = rotations.of_piece[i];
+    const RotationSums& sum = total[i];
+    rotation.inverse_inertia = {};
+    rotation.spin = {};
+    if (sum.held || !(sum.mass > 0)) continue;
+    const Vec<3> to_centre = sum.first * (1 / sum.mass);
+    rotation.centre = rotation.origin;
+    for (std::size_t k = 0; k < Dim; ++k) rotation.centre[k] += to_centre[k];
+    rotation.inverse_inertia = inverse_of(inertia_about_centre(sum.squares, sum.products, sum.mass, to_centre), rotation.about);
+    rotation.spin = rotation.rotation_of(sum.angular - cross(to_centre, sum.momentum));
+  }
+}
+
+template <int Dim, class Shape>
+void assemble_arms(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  Nodes<Dim>& nodes = state.nodes;
+  const BlockLayers<Dim>& layers = nodes.layers[b];
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    const std::uint32_t piece = state.rotations.in_field(layers.node[l].field);
+    if (piece == no_piece) continue;
+    assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_moment, &nodes.arm[layers.slot(l, 0)]);
+    if (piece == several_pieces) assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_piece, &nodes.piece[layers.slot(l, 0)]);
+  }
+  for_turning_nodes(state, model, b, &PieceRotation<Dim>::origin, [&](std::size_t i, NodalVector<Dim> r, std::uint32_t) {
+    nodes.arm[i] = splat_as<NodalVector<Dim>>(nodes.momentum[i][Dim]) * r - nodes.arm[i];
+  });
+}
+
+template <int Dim>
+void carry_rotation(State<Dim>& state, std::size_t b, Spin PieceRotation<Dim>::*spin, double ahead) {
+  const NodalVector<Dim> s = splat_as<NodalVector<Dim>>(ahead);
+  const auto carried = [&](const SpinProduct<Dim>& turned, NodalVector<Dim> arm) {
+    const NodalVector<Dim> once = turned(arm);
+    return as_record<Dim>(fused(s, turned(once), once));
+  };
+  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  const Rotations<Dim>& rotations = state.rotations;
+  const NodalVector<Dim>* arm = state.nodes.arm.data();
+  Pack* momentum = state.nodes.momentum.data();
+  for (std::size_t l = 0; l < layers.node.size(); ++l) {
+    const std::uint32_t piece = rotations.in_field(layers.node[l].field);
+    if (piece == no_piece) continue;
+    const std::size_t first = layers.slot(l, 0);
+    if (piece != several_pieces) {
+      const SpinProduct<Dim> turned(rotations.of_piece[piece].*spin);
+      for (std::size_t i = first; i < first + block_nodes<Dim>; ++i) momentum[i] += carried(turned, arm[i]);
+    } else {
+      for (std::size_t i = first; i < first + block_nodes<Dim>; ++i) {
+        const std::uint32_t its = state.nodes.piece[i].piece;
+        if (its < several_pieces) momentum[i] += carried(SpinProduct<Dim>(rotations.of_piece[its].*spin), arm[i]);
+      }
+    }
+  }
+}
+
+namespace {
+
+/// Sums of cross products at the nodes of a block, piece after piece; `hand_over(couple, sums)` when another begins.
+template <int Dim, int N, class HandOver>
+class SumsOfPieces {
+ public:
+  SumsOfPieces(std::vector<RotationCouple>& couples, HandOver hand_over) : couples_(couples), hand_over_(hand_over) {}
+  ~SumsOfPieces() { finish(); }
+  SumsOfPieces(const SumsOfPieces&) = delete;
+  SumsOfPieces& operator=(const SumsOfPieces&) = delete;
+
+  [[gnu::always_inline]] std::array<CrossSum<Dim>, N>& of(std::uint32_t piece) {
+    if (piece != piece_) {
+      finish();
+      piece_ = piece;
+      sums_ = {};
+    }
+    return sums_;
+  }
+
+ private:
+  void finish() {
+    if (piece_ != no_piece) hand_over_(couple_of(couples_, piece_), sums_);
+  }
+  std::vector<RotationCouple>& couples_;
+  HandOver hand_over_;
+  std::uint32_t piece_ = no_piece;
+  std::array<CrossSum<Dim>, N> sums_{};
+};
+
+}  // namespace
+
+template <int Dim>
+void sum_couples(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+  const Nodes<Dim>& nodes = state.nodes;
+  std::vector<RotationCouple>& couples = state.scratch[b].couples;
+  couples.clear();
+  const auto hand_over = [](RotationCouple& c, const auto& sums) { c.couple += sums[0].total(), c.torque += sums[1].total(); };
+  SumsOfPieces<Dim, 2, decltype(hand_over)> sums(couples, hand_over);
+  for_turning_nodes(state, model, b, &PieceRotation<Dim>::centre, [&](std::size_t i, NodalVector<Dim> r, std::uint32_t piece) {
+    const NodalVector<Dim> a = acceleration(nodes.motion[i]);
+    auto& [couple, torque] = sums.of(piece);
+    couple.add(nodes.arm[i], a);
+    torque.add(splat_as<NodalVector<Dim>>(nodes.momentum[i][Dim]) * r, a);
+  });
+}
+
+template <int Dim>
+void sum_read_rotation(State<Dim>& state, const Model<Dim>& model, std::size_t b, ReadVelocity read) {
+  const Nodes<Dim>& nodes = state.nodes;
+  std::vector<RotationCouple>& couples = state.scratch[b].couples;
+  for (RotationCouple& couple : couples) couple.read = {};
+  const auto hand_over = [](RotationCouple& c, const auto& sums) { c.read += sums[0].total(); };
+  SumsOfPieces<Dim, 1, decltype(hand_over)> sums(couples, hand_over);
+  for_turning_nodes(state, model, b, &PieceRotation<Dim>::centre, [&](std::size_t i, NodalVector<Dim> r, std::uint32_t piece) {
+    const NodalVector<Dim> m = splat_as<NodalVector<Dim>>(nodes.momentum[i][Dim]);
+    const NodalVector<Dim> v = read == ReadVelocity::motion ? leading<Dim>(nodes.motion[i].r[0]) : nodes.velocity[i];
+    sums.of(piece)[0].add(m * r - nodes.arm[i], v);
+  });
+}
+
+template <int Dim>
+void answer_couples(State<Dim>& state, const VelocityRule& rule) {
+  const std::vector<RotationCouple> total = total_couples(state);
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    PieceRotation<Dim>& rotation = state.rotations.of_piece[i];
+    const RotationCouple& sum = total[i];
+    rotation.acceleration = rotation.rotation_of(sum.couple);
+    rotation.spin_end = rotation.spin * (rule.own - rule.damped) + rotation.rotation_of(sum.read * rule.nodal + sum.torque * rule.gain) -
+                        rotation.acceleration * (rule.damped * rule.dt);
+  }
+}
+
+template <int Dim>
+void take_up_couples(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+  const Rotations<Dim>& rotations = state.rotations;
+  if (!rotations.any()) return;
+  Particles<Dim>& particles = state.particles;
+  constexpr int width = motion_packs<Dim>;
+  const Block<Dim>& block = state.blocks.list[b];
+  for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
+    const Run& run = state.blocks.runs[r];
+    const std::uint32_t of_run = rotations.in_field(model.materials[run.material].field);
+    const std::size_t first = std::size_t{run.first_pack} * lanes, end = std::size_t{run.end_pack} * lanes;
+    const auto accelerate = [&](std::uint32_t piece, std::size_t from, std::size_t to) {
+      if (piece >= several_pieces) return;
+      const SpinProduct<Dim> turned(rotations.of_piece[piece].acceleration * dt);
+      const NodalVector<Dim> centre = as_nodal(rotations.of_piece[piece].centre);
+      for (std::size_t p = from; p < to; ++p) {
+        const NodalVector<Dim> dv = turned(leading<Dim>(particles.motion[p * width]) - centre);
+        if constexpr (Dim == 2) {
+          particles.motion[p] += __builtin_shufflevector(Pair{0., 0.}, dv, 0, 1, 2, 3);
+        } else {
+          particles.motion[p * width + 1] += dv;
+        }
+      }
+    };
+    if (of_run != several_pieces) {
+      accelerate(of_run, first, end);
+    } else {
+      for (std::size_t p = first; p < end; ++p) {
+        if (!particles.is_padding(p)) accelerate(rotations.piece_of_particle[particles.id[p]], p, p + 1);
+      }
+    }
+  }
+}
+
+template <int Dim>
+void find_term_spins(State<Dim>& state) {
+  const std::vector<RotationCouple> total = total_couples(state);
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    state.rotations.of_piece[i].spin_term = state.rotations.of_piece[i].rotation_of(total[i].read);
+  }
+}
+
+#define CRAMPON_INSTANTIATE(DIM)                                                                   \
+  template void find_rotations<DIM>(State<DIM>&);                                                  \
+  template void carry_rotation<DIM>(State<DIM>&, std::size_t, Spin PieceRotation<DIM>::*, double); \
+  template void sum_couples<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);                     \
+  template void sum_read_rotation<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, ReadVelocity); \
+  template void answer_couples<DIM>(State<DIM>&, const VelocityRule&);                             \
+  template void take_up_couples<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double);         \
+  template void find_term_spins<DIM>(State<DIM>&);
+CRAMPON_INSTANTIATE(2)
+CRAMPON_INSTANTIATE(3)
+#undef CRAMPON_INSTANTIATE
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void assemble_arms<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);
+CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
+
+}  // namespace crampon

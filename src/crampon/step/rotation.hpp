@@ -1,0 +1,57 @@
+#pragma once
+/// Momenta that carry the rotation of bodies (docs/decisions/0020-rotation.md). The velocity of a node is
+///
+///     v_i = (1/m_i) sum_p S_ip m_p (v_p + w x (x_i - x_p)),
+///
+/// with w the spin of the piece of p, of all its particles as if they were rigid: a body that only turns has v_i = w x x_i and no strain. w x arm_i,
+/// arm_i = sum_p S_ip m_p (x_i - x_p), is what N03 Eq. 26 does not have. It does work on nodal forces; particles take that up as a rigid
+/// rotation of the acceleration J^-1 sum_i arm_i x a_i beside sum S a, so that energy and angular momentum are kept.
+
+#include "crampon/state/rotation.hpp"
+#include "crampon/step/model.hpp"
+#include "crampon/step/state.hpp"
+
+namespace crampon {
+
+struct VelocityRule;
+
+/// At the start of a run: the pieces of material, and about which axes they may turn: rigid bodies not at all, a piece at a symmetry plane about
+/// the normal of that plane alone. Whatever is a piece at the start counts as one for good (step/find_pieces.cpp).
+template <int Dim>
+void start_rotations(State<Dim>& state, const Model<Dim>& model);
+
+/// Centre, inertia and spin of every piece, from what project_momentum() has summed up. Task 1.
+template <int Dim>
+void find_rotations(State<Dim>& state);
+
+/// Arms of a block's nodes, kg m; its momenta are assembled.
+template <int Dim, class Shape>
+void assemble_arms(State<Dim>& state, const Model<Dim>& model, std::size_t b);
+
+/// Adds w x arm + s w x (w x arm) to the momenta of a block's nodes: velocities of a time that is ahead of the positions by s. Tasks 1, 6, and terms
+/// of a series.
+template <int Dim>
+void carry_rotation(State<Dim>& state, std::size_t b, Spin PieceRotation<Dim>::*spin, double ahead);
+
+/// Couples of the accelerations of a block's nodes. Task 4.
+template <int Dim>
+void sum_couples(State<Dim>& state, const Model<Dim>& model, std::size_t b);
+
+/// The angular momentum that particles get by taking velocities from a block's nodes: v' of Task 4, or a term of a series.
+enum class ReadVelocity { motion, term };
+template <int Dim>
+void sum_read_rotation(State<Dim>& state, const Model<Dim>& model, std::size_t b, ReadVelocity read);
+
+/// How particles answer couples, and the spin that they have after Task 5 by a rule.
+template <int Dim>
+void answer_couples(State<Dim>& state, const VelocityRule& rule);
+
+/// Gives the particles of a block what answers the couples. Task 5, before what they take from nodes.
+template <int Dim>
+void take_up_couples(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt);
+
+/// The spin of particles that take a term of a series from nodes.
+template <int Dim>
+void find_term_spins(State<Dim>& state);
+
+}  // namespace crampon
