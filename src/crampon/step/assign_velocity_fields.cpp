@@ -10,8 +10,8 @@
 #include "crampon/step/assemble.hpp"
 #include "crampon/step/folded_pairs.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/lay_out_nodes.hpp"
 #include "crampon/step/packs.hpp"
-#include "crampon/step/rigid_faces.hpp"
 #include "crampon/step/view_cracks.hpp"
 
 namespace crampon {
@@ -292,55 +292,6 @@ class BlockAssignment {
   bool fits_ = true;
 };
 
-/// Layers at the own nodes of a block: all that reach it from tiles around. A block that none reaches has no nodes in this step.
-template <int Dim, class Shape>
-void find_node_layers(State<Dim>& state, std::size_t b) {
-  BlockLayers<Dim>& own = state.nodes.layers[b];
-  own.node.clear();
-  own.node_cracks.clear();
-  for (int o = 0; o < neighbour_count<Dim>; ++o) {
-    const std::uint32_t c = state.blocks.list[b].neighbours[o];
-    if (c == no_block) continue;
-    const BlockLayers<Dim>& there = state.nodes.layers[c];
-    if (!state.blocks.list[c].has_particles()) continue;
-    for (std::size_t l = 0; l < there.tile.size(); ++l) {
-      if (Overlap<Dim, Shape>(neighbour_step<Dim>(o), touched_box(state, c, static_cast<int>(l))).empty) continue;
-      if (layer_of<Dim>(own.node, there.tile[l]) < 0) own.node.push_back(there.tile[l]);
-    }
-    own.node_cracks.insert(own.node_cracks.end(), there.tile_cracks.begin(), there.tile_cracks.end());
-  }
-  std::sort(own.node.begin(), own.node.end());
-  std::sort(own.node_cracks.begin(), own.node_cracks.end());
-  own.node_cracks.erase(std::unique(own.node_cracks.begin(), own.node_cracks.end()), own.node_cracks.end());
-}
-
-/// Are own nodes of a block within reach of a rigid face?
-template <int Dim>
-bool block_is_near_face(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  Vec<Dim> centre, half;
-  const auto first = state.blocks.list[b].first_node();
-  for (int k = 0; k < Dim; ++k) {
-    half[k] = 0.5 * (block_side - 1) * model.grid.cell[k];
-    centre[k] = model.grid.node_coordinate(k, first[k]) + half[k];
-  }
-  return is_near_rigid_face(state, model, centre, norm(half) + longest_reach(model));
-}
-
-/// Does a tile reach own nodes, of some block around it, that hold several layers or are near a rigid face?
-template <int Dim, class Shape>
-bool reaches_shared_nodes(const State<Dim>& state, std::size_t b) {
-  const Block<Dim>& block = state.blocks.list[b];
-  if (!block.has_particles()) return false;
-  for (int o = 0; o < neighbour_count<Dim>; ++o) {
-    const std::uint32_t c = block.neighbours[o];
-    if (c == no_block || (state.nodes.layers[c].node.size() < 2 && !state.nodes.layers[c].near_face)) continue;
-    IndexVector<Dim> step = neighbour_step<Dim>(o);
-    for (int k = 0; k < Dim; ++k) step[k] = -step[k];
-    if (!Overlap<Dim, Shape>(step, block.touched).empty) return true;
-  }
-  return false;
-}
-
 template <int Dim>
 void reset_layers(BlockLayers<Dim>& layers) {
   layers.tile.assign(1, Layer{});
@@ -350,55 +301,6 @@ void reset_layers(BlockLayers<Dim>& layers) {
   layers.targets.clear();
   layers.special.clear();
   layers.offsets.clear();
-}
-
-template <int Dim, class Shape>
-void lay_out(State<Dim>& state, const Model<Dim>& model, const std::vector<std::vector<CrossingSums>>& crossing) {
-  Nodes<Dim>& nodes = state.nodes;
-  const std::size_t blocks = state.blocks.size();
-  const bool cracked = !state.cracks.empty();
-  const bool several = cracked || model.fields.size() > 1;
-  parallel_for(blocks, model.threads, [&](std::size_t b) {
-    find_node_layers<Dim, Shape>(state, b);
-    if (several) nodes.layers[b].near_face = block_is_near_face(state, model, b);
-  });
-  if (several) {
-    parallel_for(blocks, model.threads, [&](std::size_t b) { nodes.layers[b].sums_contact = reaches_shared_nodes<Dim, Shape>(state, b); });
-  }
-  nodes.tile_slots = nodes.node_slots = nodes.crossing_tile_slots = nodes.crossing_node_slots = 0;
-  for (BlockLayers<Dim>& l : nodes.layers) {
-    l.tile_begin = static_cast<std::uint32_t>(nodes.tile_slots);
-    l.node_begin = static_cast<std::uint32_t>(nodes.node_slots);
-    l.crossing_tile_begin = static_cast<std::uint32_t>(nodes.crossing_tile_slots);
-    l.crossing_node_begin = static_cast<std::uint32_t>(nodes.crossing_node_slots);
-    nodes.tile_slots += l.tile.size();
-    nodes.node_slots += l.node.size();
-    nodes.crossing_tile_slots += l.tile_cracks.size();
-    nodes.crossing_node_slots += l.node_cracks.size();
-  }
-  using T = Tile<Dim, Shape>;
-  nodes.tile_momentum.resize_discarding(nodes.tile_slots * T::nodes);
-  nodes.tile_force.resize_discarding(nodes.tile_slots * T::nodes);
-  if (state.rotations.any()) {
-    nodes.tile_moment.resize_discarding(nodes.tile_slots * T::nodes);
-    nodes.arm.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  }
-  if (state.rotations.several()) {
-    nodes.tile_piece.resize_discarding(nodes.tile_slots * T::nodes);
-    nodes.piece.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  }
-  nodes.momentum.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  nodes.force.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  nodes.velocity.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  nodes.motion.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  if (!several) return;
-  nodes.tile_contact.resize_discarding(nodes.tile_slots * T::nodes);
-  nodes.contact.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  nodes.tile_crossing.resize_discarding(nodes.crossing_tile_slots * T::nodes);
-  nodes.crossing.resize_discarding(nodes.crossing_node_slots * block_nodes<Dim>);
-  for (std::size_t b = 0; b < blocks; ++b) {
-    std::copy(crossing[b].begin(), crossing[b].end(), nodes.tile_crossing.begin() + nodes.layers[b].crossing_tile_begin * T::nodes);
-  }
 }
 
 }  // namespace
@@ -426,7 +328,7 @@ void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model, double d
                    " cracks lie between a particle and a node of its stencil, or a block of cells holds more than 255 velocity fields; "
                    "use smaller cells or fewer cracks at one place");
   }
-  lay_out<Dim, Shape>(state, model, crossing);
+  lay_out_nodes<Dim, Shape>(state, model, crossing);
 }
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE) template void assign_velocity_fields<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double);

@@ -14,25 +14,23 @@ namespace {
 
 constexpr std::array<std::size_t, 3> next_axis{1, 2, 0};
 
-/// Its rows, about the axes that are free; zero where particles have no extent across an axis.
-std::array<Vec<3>, 3> inverse_of(const Eigen::Matrix3d& inertia, const std::array<bool, 3>& about) {
-  std::array<int, 3> axes{};
-  int n = 0;
+/// The rows of the inverse of a moment of inertia about the axes that are free; all zero where particles have no extent across one of them.
+std::array<Vec<3>, 3> inverse_of(Eigen::Matrix3d inertia, const std::array<bool, 3>& about) {
+  const double size = inertia.trace();
   for (int k = 0; k < 3; ++k) {
-    if (about[static_cast<std::size_t>(k)]) axes[static_cast<std::size_t>(n++)] = k;
-  }
-  Eigen::Matrix3d part = Eigen::Matrix3d::Identity();
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) part(i, j) = inertia(axes[static_cast<std::size_t>(i)], axes[static_cast<std::size_t>(j)]);
+    if (about[static_cast<std::size_t>(k)]) continue;
+    inertia.row(k).setZero();
+    inertia.col(k).setZero();
+    inertia(k, k) = size;
   }
   std::array<Vec<3>, 3> out{};
-  const double size = part.topLeftCorner(n, n).trace() / std::max(n, 1);
-  if (n == 0 || !(part.topLeftCorner(n, n).determinant() > 1e-12 * std::pow(size, n))) return out;
-  const Eigen::Matrix3d inverse = part.inverse();
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j)
-      out[static_cast<std::size_t>(axes[static_cast<std::size_t>(i)])][static_cast<std::size_t>(axes[static_cast<std::size_t>(j)])] =
-          inverse(i, j);
+  if (!(inertia.determinant() > 1e-12 * size * size * size)) return out;
+  const Eigen::Matrix3d inverse = inertia.inverse();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
+      if (about[row] && about[column]) out[row][column] = inverse(i, j);
+    }
   }
   return out;
 }
