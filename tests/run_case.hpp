@@ -1,6 +1,8 @@
 #pragma once
 /// Short runs for tests: an input as text, stepped in memory.
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -14,6 +16,11 @@ namespace crampon::test {
 
 inline std::unique_ptr<Simulation> make(const std::string& text, const std::vector<std::string>& overrides = {}, int threads = 1) {
   return Simulation::create(read_problem_text(text, "test.toml", ".", overrides), threads);
+}
+
+/// A [[material]] named "m" of density 1000 kg/m3 and nu = .3, for inputs as text. E: Pa
+inline std::string material(const char* law, double E) {
+  return fmt::format("[[material]]\nname = \"m\"\nlaw = \"{}\"\nE = {}\nnu = 0.3\ndensity = 1000\n", law, E);
 }
 
 /// Steps to the end; `each` sees the simulation after every step.

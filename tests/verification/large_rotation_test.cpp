@@ -32,21 +32,15 @@ end = 0.1
 step = {}
 [method]
 shape_functions = "gimp"
-[[material]]
-name = "m"
-law = "elastic_large_rotation"
-E = 1e6
-nu = 0.3
-density = 1000
-[[body]]
+{}[[body]]
 name = "block"
 material = "m"
 shape = {{ kind = "{}", low = {}, high = {} }}
 velocity = [{{ expression = "-8*y+12*x" }}, {{ expression = "8*x-12*y" }}{}]
 )",
                          fmt::format("analysis = \"{}\"", c.analysis), c.three_dimensional ? "[-1, -1, -1]" : "[-1, -1]",
-                         c.three_dimensional ? "[2, 2, 2]" : "[2, 2]", step, c.three_dimensional ? "box" : "rectangle",
-                         c.three_dimensional ? "[-0.4, -0.2, -0.2]" : "[-0.4, -0.2]",
+                         c.three_dimensional ? "[2, 2, 2]" : "[2, 2]", step, material("elastic_large_rotation", 1e6),
+                         c.three_dimensional ? "box" : "rectangle", c.three_dimensional ? "[-0.4, -0.2, -0.2]" : "[-0.4, -0.2]",
                          c.three_dimensional ? "[0.4, 0.2, 0.2]" : "[0.4, 0.2]", c.three_dimensional ? ", 0" : ""));
     const double start = value(*simulation, "total_energy");
     double worst = 0, strain = 0;

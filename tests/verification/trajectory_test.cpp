@@ -134,10 +134,9 @@ velocity = [1, 0.5{}]
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) EXPECT_GT(off[i] / off[i + 1], 3.5) << "4, but for where steps are cut";
 }
 
-/// A disk spins by two radians, at two time steps. All particles must be where they are at half the step but for a thousandth of a cell: taken
-/// back by the velocity with which they move, they part by .5e-4 to 1.1e-4 m (uGIMP) and .3e-4 to .4e-4 m (B-splines), by their own velocity by
-/// 2.6e-4 to 3.3e-4 m, and by v dt/2 = 9e-4 m as N03 has them. Not linear functions, whose forces jump where particles cross cell lines, nor USL,
-/// which light nodes make rough at any time step.
+/// A disk spins by two radians, at three time steps: places come together with the square of the step. They part by 2e-5 to 8e-5 m between .4 and
+/// .2 ms, where v dt/2 = 9e-4 m. Not linear functions, whose forces jump where particles cross cell lines, nor USL, which light nodes make rough at
+/// any time step.
 class Spin : public testing::TestWithParam<Setting> {};
 TEST_P(Spin, PutsTheRimWhereItIs) {
   const Setting setting = GetParam();
@@ -154,12 +153,18 @@ material = "stiff"
 shape = { kind = "disk", centre = [0.03, 0.02], radius = 0.45 }
 velocity = [{ expression = "1-20*(y-0.02)" }, { expression = "0.5+20*(x-0.03)" }]
 )toml";
-  const auto whole = make(head(setting, 0.1, 4e-4) + text), half = make(head(setting, 0.1, 2e-4) + text);
-  run(*whole);
-  run(*half);
-  const double apart = difference(positions(*whole), positions(*half));
-  RecordProperty("apart", fmt::format("{:.2e}", apart));
-  EXPECT_LT(apart, 1.5e-4) << "m";
+  const auto places = [&](double step) {
+    const auto simulation = make(head(setting, 0.1, step) + text);
+    run(*simulation);
+    return positions(*simulation);
+  };
+  const Numbers whole = places(8e-4), half = places(4e-4), quarter = places(2e-4);
+  const double first = difference(whole, half), second = difference(half, quarter);
+  RecordProperty("apart", fmt::format("{:.2e}", second));
+  RecordProperty("ratio", fmt::format("{:.2f}", first / second));
+  EXPECT_LT(second, 1e-4) << "m";
+  EXPECT_GT(first / second, 2.6)
+      << "2.8 (USF, uGIMP) to 4.1; 4 but for cell lines that particles cross in one run and not yet in the other";
 }
 INSTANTIATE_TEST_SUITE_P(All, Spin,
                          testing::Combine(testing::Values("gimp", "bspline"), testing::Values("usavg", "musl", "usf"), testing::Values(2)),
