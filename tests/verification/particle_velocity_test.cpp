@@ -48,7 +48,9 @@ double total_energy(const Simulation& s) { return value(s, "total_energy"); }
 TEST(Series, IsThatOfTheMatrices) {
   const double h = 0.1;
   using Columns = std::array<std::vector<double>, 2>;  // x, y
-  for (const auto& [kind, carried] : {std::pair{"fmpm", true}, {"xpic", true}, {"fmpm", false}, {"xpic", false}}) {
+  for (const auto& way : {std::pair{"fmpm", true}, {"xpic", true}, {"fmpm", false}, {"xpic", false}}) {
+    const char* kind = way.first;
+    const bool carried = way.second;
     for (int order = 1; order <= 5; ++order) {
       const auto simulation = make(input(
           fmt::format(
