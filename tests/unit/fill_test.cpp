@@ -58,13 +58,14 @@ TEST(Fill, BruteForceFindsTheSameParticles) {
   }
 }
 
-// Measures by place on the lattice of spacing s from `origin`; places are doubled indices, so that mirroring about 0 is a change of sign.
-std::map<std::array<long, 3>, double> by_place(const std::vector<FilledParticle>& particles, const Vec<3>& centre, double s) {
-  std::map<std::array<long, 3>, double> places;
+// Particles by the sub-cell of the lattice of spacing s about `centre` in which they lie; places are odd, so that mirroring about 0 is a change
+// of sign.
+std::map<std::array<long, 3>, FilledParticle> by_place(const std::vector<FilledParticle>& particles, const Vec<3>& centre, double s) {
+  std::map<std::array<long, 3>, FilledParticle> places;
   for (const FilledParticle& p : particles) {
     std::array<long, 3> place{};
-    for (int k = 0; k < 3; ++k) place[k] = std::lround(2 * (p.position[k] - centre[k]) / s);
-    places[place] = p.measure;
+    for (int k = 0; k < 3; ++k) place[k] = 2 * std::lround(std::floor((p.position[k] - centre[k]) / s)) + 1;
+    places[place] = {p.position - centre, p.measure};
   }
   return places;
 }
@@ -95,46 +96,52 @@ TEST(Fill, SymmetricShapesFillSymmetrically) {
             mirrored[axis] = -mirrored[axis];
             const auto found = places.find(mirrored);
             ASSERT_NE(found, places.end());
-            ASSERT_EQ(found->second, value) << "to the last bit";
+            ASSERT_EQ(found->second.measure, value.measure) << "to the last bit";
+            Vec<3> image = value.position;
+            image[axis] = -image[axis];
+            ASSERT_LT(norm(found->second.position - image), 1e-15) << "m";
           }
       }
     }
   }
 }
 
-TEST(Fill, MatchedMeasureIsTheShapesAndStaysSmooth) {
+TEST(Fill, MatchedMeasureAndMiddleAreTheShapesAndStaySmooth) {
   // Ten cells of 2 x 2 (2 x 2 x 2) particles across, and more.
-  const auto check = [](const Shape& shape, int dimension, int cells_per_unit) {
+  const auto check = [](const Shape& shape, const Vec<3>& middle, int dimension, int cells_per_unit) {
     const FillGrid grid = grid_around_origin(dimension, cells_per_unit);
     const auto lattice = fill_shape(shape, grid, {2, 2, 2});
     const auto matched = fill_shape(shape, grid, {2, 2, 2}, FillMeasure::matched);
-    ASSERT_EQ(lattice.size(), matched.size());
+    ASSERT_GE(matched.size(), lattice.size());  // sub-cells that the shape covers by a fifth have particles as well
     // Exact measure imposed: only the sum's rounding is left.
     EXPECT_NEAR(total(matched), *shape.measure(), 1e-12 * *shape.measure());
     const double sub = lattice[0].measure;
     const double reach = std::sqrt(dimension) / cells_per_unit;
+    Vec<3> moment;
+    for (const FilledParticle& p : matched) moment += p.position * p.measure;
+    // Whole numbers of 6e-8 of a sub-cell, and boundaries cut as planes.
+    EXPECT_LT(norm(moment * (1 / *shape.measure()) - middle), 2e-4 / cells_per_unit);
     for (std::size_t k = 0; k < matched.size(); ++k) {
-      EXPECT_EQ(matched[k].position, lattice[k].position);
+      EXPECT_LT(shape.distance(matched[k].position), 1e-3 * reach);
       // Far from the boundary the density is untouched: the common factor is within the error of the covered parts.
       if (shape.distance(matched[k].position) < -reach) {
         EXPECT_NEAR(matched[k].measure, sub, 2e-4 * sub);
       }
-      // A right-angled corner at the centre of a sub-cell leaves it a quarter.
-      EXPECT_GT(matched[k].measure, .24 * sub);
-      EXPECT_LT(matched[k].measure, 3 * sub);
+      // At least a fifth of a sub-cell, and no more than its own and less than a fifth of those about it.
+      EXPECT_GT(matched[k].measure, .199 * sub);
+      EXPECT_LT(matched[k].measure, 1.6 * sub);
     }
   };
   for (const int cells : {10, 13, 25}) {
-    check(Disk({{0, 0}}, .5), 2, cells);
-    check(Disk({{.013, .021}}, .5), 2, cells);
-    check(Ring({{.01, 0}}, .3, .6), 2, cells);
-    check(Ellipse({{0, .01}}, {{.75, .5}}, .3), 2, cells);
-    check(*plane_shapes()[8].shape, 2, 2 * cells);
-    check(Rectangle({{-.51, -.52}}, {{.52, .53}}), 2, cells);
+    check(Disk({{0, 0}}, .5), {}, 2, cells);
+    check(Disk({{.013, .021}}, .5), {{.013, .021, 0}}, 2, cells);
+    check(Ring({{.01, 0}}, .3, .6), {{.01, 0, 0}}, 2, cells);
+    check(Ellipse({{0, .01}}, {{.75, .5}}, .3), {{0, .01, 0}}, 2, cells);
+    check(Rectangle({{-.51, -.52}}, {{.52, .53}}), {{.005, .005, 0}}, 2, cells);
   }
-  check(Sphere({{0, 0, 0}}, .5), 3, 10);
-  check(Sphere({{.013, .02, -.01}}, .5), 3, 12);
-  check(Cylinder({{-.3, -.4, -.5}}, {{.3, .4, .5}}, .5), 3, 10);
+  check(Sphere({{0, 0, 0}}, .5), {}, 3, 10);
+  check(Sphere({{.013, .02, -.01}}, .5), {{.013, .02, -.01}}, 3, 12);
+  check(Cylinder({{-.3, -.4, -.5}}, {{.3, .4, .5}}, .5), {}, 3, 10);
 }
 
 TEST(Fill, CoveredMeasureWithoutAClosedForm) {
@@ -179,7 +186,7 @@ TEST(Fill, EmptyAndOutside) {
   EXPECT_EQ(fill_shape(HalfPlane({{0, 0, 0}}, {{1, 0, 0}}, 2), grid, {2, 2, 1}).size(), 200u);
 }
 
-TEST(PlaneCut, FractionAgreesWithSampling) {
+TEST(PlaneCut, FractionAndMomentAgreeWithSampling) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(-1, 1);
   for (const int dimension : {2, 3}) {
@@ -190,18 +197,27 @@ TEST(PlaneCut, FractionAgreesWithSampling) {
       const double d = .8 * number(random);
       const int m = dimension == 2 ? 400 : 60;
       int inside = 0, samples = 0;
+      Vec<3> moment;
       for (int k = 0; k < (dimension == 3 ? m : 1); ++k)
         for (int j = 0; j < m; ++j)
           for (int i = 0; i < m; ++i, ++samples) {
             const Vec<3> x{{half[0] * ((2 * i + 1.) / m - 1), half[1] * ((2 * j + 1.) / m - 1), half[2] * ((2 * k + 1.) / m - 1)}};
-            inside += d + dot(n, x) - (dimension == 2 ? n[2] * x[2] : 0) <= 0;
+            if (d + dot(n, x) - (dimension == 2 ? n[2] * x[2] : 0) > 0) continue;
+            ++inside;
+            moment += x;
           }
       // Sampling: at worst about one row of m.
-      EXPECT_NEAR(plane_cut_fraction(d, n, half, dimension), double(inside) / samples, 2. / m);
+      const CoveredPart part = plane_cut(d, n, half, dimension);
+      EXPECT_NEAR(part.fraction, double(inside) / samples, 2. / m);
+      EXPECT_EQ(part.fraction, plane_cut_fraction(d, n, half, dimension));
+      for (int k = 0; k < dimension; ++k) EXPECT_NEAR(part.moment[k], moment[k] / samples, 2. / m);
     }
   }
   EXPECT_DOUBLE_EQ(plane_cut_fraction(.25, {{1, 0, 0}}, {{.5, .5, .5}}, 3), .25);
   EXPECT_DOUBLE_EQ(plane_cut_fraction(0, {{1, 1, 1}}, {{.5, .5, .5}}, 3), .5);
+  EXPECT_DOUBLE_EQ(plane_cut(.25, {{1, 0, 0}}, {{.5, .5, .5}}, 3).moment[0], .25 * -.375);
+  // The corner beyond x + y + z = -1 of a cube from -1/2 to 1/2: a tetrahedron with edges of half the cube's.
+  EXPECT_DOUBLE_EQ(plane_cut(1, {{1, 1, 1}}, {{.5, .5, .5}}, 3).moment[1], 1. / 48 * (-.5 + .125));
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST(Notes, BodiesThatOverlap) {
       matrix.find("shape = {"), std::string::npos,
       "shape = { kind = \"difference\", of = { kind = \"rectangle\", low = [0.3, 0.3], high = [0.7, 0.7] }, without = [{ kind = "
       "\"disk\", centre = [0.5, 0.5], radius = 0.1234 }] }\n[[body]]\nname = \"inclusion\"\nmaterial = \"soft\"\nshape = { kind = "
-      "\"disk\", centre = [0.5, 0.5], radius = 0.1234 }\nparticles_per_cell = 3\n");
+      "\"disk\", centre = [0.5, 0.5], radius = 0.1234 }\nmatch_mass = false\nparticles_per_cell = 3\n");
   EXPECT_EQ(notes(matrix).size(), 0U);
 }
 
@@ -118,6 +118,16 @@ TEST(Notes, ParticlesFromAFile) {
       "file are areas times the thickness of the body");
   std::ofstream(scratch.path() / "two.csv") << "x,y,volume\n0.325,0.325,0.0025\n0.75,0.35,0.0025\n";
   EXPECT_NE(note(file, scratch.path()).find("\"block\" and \"listed\" overlap: 1 of the 64 particles of \"block\""), std::string::npos);
+}
+
+TEST(Notes, StairsOfParticles) {
+  const std::string head = block.substr(0, block.find("[[body]]")), body = "[[body]]\nname = \"disk\"\nmaterial = \"soft\"\n";
+  const std::string disk = "shape = { kind = \"disk\", centre = [0.5, 0.5], radius = 0.225 }\n";
+  EXPECT_EQ(note(head + body + disk),
+            "in.toml:17:1: body[0].shape: the particles of \"disk\" have 5.7 % less area than its shape (each stands for a whole sub-cell, "
+            "and those "
+            "with their middle in the shape make a staircase); set match_mass = true, or false to keep them without this note");
+  for (const char* said : {"match_mass = true\n", "match_mass = false\n"}) EXPECT_TRUE(notes(head + body + said + disk).empty());
 }
 
 TEST(Notes, ParticlesInsideAWall) {

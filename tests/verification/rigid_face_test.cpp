@@ -113,8 +113,8 @@ constexpr Press presses[] = {{"plate_on_wall", true, false, false},
                              {"two_plates", true, true, true},
                              {"two_walls", false, false, true}};
 
-/// The others are in Full, and not all of them bear what they should within 1 %: shapes turned by 30 degrees are stairs of particles (up to
-/// 1.038 over 20 places); of particles from a file nobody knows the surface (at 30 degrees up to 6 %, and B-splines straight read 1.013 and go on trembling by .6 %), and with linear functions rows of them cross
+/// The others are in Full, and not all of them bear what they should within 1 %: of shapes turned by 30 degrees layers of four cells do not (up to
+/// 1.020 with linear functions, 1.015 with uGIMP between two faces); of particles from a file nobody knows the surface (at 30 degrees up to 6 %, and B-splines straight read 1.013 and go on trembling by .6 %), and with linear functions rows of them cross
 /// nodes (up to 33 %), whatever they meet.
 bool is_met(const Layer& c) {
   const std::string shape_functions = c.shape_functions;

@@ -72,6 +72,9 @@ class Declaration : public Record {
   Declaration& flag(std::string key, bool T::*m, std::string help, Presence presence = {}) {
     return plain<bool>(Kind::flag, std::move(key), m, std::move(help), presence);
   }
+  Declaration& flag(std::string key, std::optional<bool> T::*m, std::string help, Presence presence = {}) {
+    return plain<bool>(Kind::flag, std::move(key), m, std::move(help), presence);
+  }
   Declaration& text(std::string key, std::string T::*m, std::string help, Presence presence = {}) {
     return plain<std::string>(Kind::text, std::move(key), m, std::move(help), presence);
   }

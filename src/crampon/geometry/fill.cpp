@@ -11,12 +11,20 @@ namespace {
 
 using Index = std::array<int, 3>;
 
-constexpr double boundary_tolerance = 1e-9;        // of the smallest sub-cell size
-constexpr std::int64_t whole_part = 1 << 24;       // a covered part is a whole number of these: 6e-8 of a sub-cell
-constexpr std::int64_t share_denominator = 27720;  // divisible by 1..12: up to 12 neighbours share alike
+constexpr double boundary_tolerance = 1e-9;              // of the smallest sub-cell size
+constexpr std::int64_t whole_part = 1 << 24;             // a covered part is a whole number of these: 6e-8 of a sub-cell
+constexpr std::int64_t share_denominator = 27720;        // divisible by 1..12: up to 12 neighbours share alike
+constexpr std::int64_t least_own_part = whole_part / 5;  // of a sub-cell that gets a particle though its centre is outside
+constexpr double furthest_off = 0.49;                    // of the middle of its sub-cell, in its edges: a particle stays in its own
 constexpr std::int64_t whole_weight = whole_part * share_denominator;
 
 enum class Cover : std::uint8_t { none, partial, full };
+
+// A part of a sub-cell, or the weight of a particle, in whole fractions of a sub-cell.
+struct Part {
+  std::int64_t measure = 0;
+  std::array<std::int64_t, 3> moment{};  // about the middle of the sub-cell, in its edges
+};
 
 // The shape seen on the sub-lattice: the range of cells that its bounds reach, and how much of each the shape covers.
 class Lattice {
@@ -59,6 +67,7 @@ class Lattice {
   std::size_t cell_number(const Index& c) const { return (std::size_t(c[2]) * count_[1] + c[1]) * count_[0] + c[0]; }
   std::size_t cells() const { return cover_.size(); }
   int subs_per_cell() const { return per_cell_[0] * per_cell_[1] * per_cell_[2]; }
+  const Vec<3>& sub() const { return sub_; }  // edges of a sub-cell, m
   double sub_measure() const { return sub_[0] * sub_[1] * (dimension_ == 3 ? sub_[2] : 1); }
 
   Vec<3> centre(const Index& cell, const Index& sub) const {
@@ -67,9 +76,12 @@ class Lattice {
     return x;
   }
   bool contains(const Vec<3>& x) const { return shape_.contains(x, tolerance_); }
-  /// Covered part of the sub-cell around x, in units of 1/whole_part.
-  std::int64_t covered_part(const Vec<3>& x) const {
-    return std::llround(covered_fraction(shape_, dimension_, x, sub_ * 0.5, depth_, tolerance_) * whole_part);
+  /// Covered part of the sub-cell around x.
+  Part covered(const Vec<3>& x) const {
+    const CoveredPart part = covered_part(shape_, dimension_, x, sub_ * 0.5, depth_, tolerance_);
+    Part whole{std::llround(part.fraction * whole_part), {}};
+    for (int k = 0; k < dimension_; ++k) whole.moment[k] = std::llround(part.moment[k] / sub_[k] * whole_part);
+    return whole;
   }
 
  private:
@@ -157,21 +169,25 @@ class ParticleFinder {
   std::vector<int> sub_;
 };
 
-// Gives `weight` in equal shares to the particles nearest to an empty sub-cell; a sliver without neighbours is left to the common factor.
-void share_out(std::int64_t part, const Lattice& lattice, const ParticleFinder& finder, const Index& cell, const Index& sub,
-               std::vector<std::int64_t>& weights) {
+// Gives the part of an empty sub-cell in equal shares to the particles nearest to it; a sliver without neighbours is left to the common factor.
+void share_out(const Part& part, const Lattice& lattice, const ParticleFinder& finder, const Index& cell, const Index& sub,
+               std::vector<Part>& weights) {
   const int reach_z = lattice.dimension() == 3 ? 1 : 0;
   for (int axes = 1; axes <= lattice.dimension(); ++axes) {
-    std::array<std::int64_t, 12> nearest{};
+    std::array<std::pair<std::int64_t, Index>, 12> nearest{};
     int found = 0;
     for (int k = -reach_z; k <= reach_z; ++k)
       for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
           if (std::abs(i) + std::abs(j) + std::abs(k) != axes) continue;
           const std::int64_t particle = finder.find(cell, sub, {i, j, k});
-          if (particle >= 0) nearest[found++] = particle;
+          if (particle >= 0) nearest[found++] = {particle, {i, j, k}};
         }
-    for (int k = 0; k < found; ++k) weights[nearest[k]] += part * (share_denominator / found);
+    for (int n = 0; n < found; ++n) {
+      const auto& [particle, step] = nearest[n];
+      weights[particle].measure += part.measure * (share_denominator / found);
+      for (int k = 0; k < 3; ++k) weights[particle].moment[k] += (part.moment[k] - step[k] * part.measure) * (share_denominator / found);
+    }
     if (found > 0) return;
   }
 }
@@ -182,12 +198,13 @@ double covered_measure_of(const Lattice& lattice) {
     if (lattice.cover(k) == Cover::full) whole += lattice.subs_per_cell();
   for_each_sub(
       lattice, [](Cover c) { return c == Cover::partial; },
-      [&](std::size_t, const Index& c, const Index& s) { parts += lattice.covered_part(lattice.centre(c, s)); });
+      [&](std::size_t, const Index& c, const Index& s) { parts += lattice.covered(lattice.centre(c, s)).measure; });
   return (static_cast<double>(whole) + static_cast<double>(parts) / whole_part) * lattice.sub_measure();
 }
 
-void match_measures(const Shape& shape, const Lattice& lattice, const ParticleFinder& finder, std::vector<FilledParticle>& particles) {
-  std::vector<std::int64_t> weights(particles.size(), whole_weight);
+// Measures and places of particles follow the boundary: each becomes the middle of what it stands for.
+void follow_boundary(const Shape& shape, const Lattice& lattice, const ParticleFinder& finder, std::vector<FilledParticle>& particles) {
+  std::vector<Part> weights(particles.size(), Part{whole_weight, {}});
   std::int64_t whole = 0, parts = 0;
   for (std::size_t k = 0; k < lattice.cells(); ++k)
     if (lattice.cover(k) == Cover::full) whole += lattice.subs_per_cell();
@@ -195,24 +212,35 @@ void match_measures(const Shape& shape, const Lattice& lattice, const ParticleFi
   const auto visit_parts = [&](auto visit) {
     for_each_sub(lattice, partial, [&](std::size_t, const Index& c, const Index& s) { visit(c, s, finder.find(c, s, {0, 0, 0})); });
   };
-  std::vector<std::int64_t> covered;
+  std::vector<Part> covered;
   visit_parts([&](const Index& c, const Index& s, std::int64_t particle) {
-    covered.push_back(lattice.covered_part(lattice.centre(c, s)));
-    parts += covered.back();
-    if (particle >= 0) weights[particle] = covered.back() * share_denominator;
+    const Part part = lattice.covered(lattice.centre(c, s));
+    covered.push_back(part);
+    parts += part.measure;
+    if (particle < 0) return;
+    weights[particle].measure = part.measure * share_denominator;
+    for (int k = 0; k < 3; ++k) weights[particle].moment[k] = part.moment[k] * share_denominator;
   });
   std::size_t next = 0;
   visit_parts([&](const Index& c, const Index& s, std::int64_t particle) {
-    const std::int64_t part = covered[next++];
-    if (particle < 0 && part > 0) share_out(part, lattice, finder, c, s, weights);
+    const Part& part = covered[next++];
+    if (particle < 0 && part.measure > 0) share_out(part, lattice, finder, c, s, weights);
   });
 
   const bool exact = shape.dimension() == lattice.dimension() && lattice.shape_in_grid() && shape.measure().has_value();
   const double target =
       exact ? *shape.measure() : (static_cast<double>(whole) + static_cast<double>(parts) / whole_part) * lattice.sub_measure();
   double total = 0;
-  for (const std::int64_t w : weights) total += static_cast<double>(w) / whole_weight;
-  for (std::size_t k = 0; k < particles.size(); ++k) particles[k].measure = static_cast<double>(weights[k]) / whole_weight / total * target;
+  for (const Part& w : weights) total += static_cast<double>(w.measure) / whole_weight;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const auto measure = static_cast<double>(weights[p].measure);
+    particles[p].measure = measure / whole_weight / total * target;
+    if (measure == 0) continue;
+    for (int k = 0; k < 3; ++k) {
+      const double off = static_cast<double>(weights[p].moment[k]) / measure;
+      particles[p].position[k] += std::clamp(off, -furthest_off, furthest_off) * lattice.sub()[k];
+    }
+  }
 }
 }  // namespace
 
@@ -225,13 +253,15 @@ std::vector<FilledParticle> fill_shape(const Shape& shape, const FillGrid& grid,
       lattice, [](Cover c) { return c != Cover::none; },
       [&](std::size_t number, const Index& c, const Index& s) {
         const Vec<3> x = lattice.centre(c, s);
-        if (lattice.cover(number) == Cover::partial && !lattice.contains(x)) return;
+        if (lattice.cover(number) == Cover::partial && !lattice.contains(x) &&
+            !(measure == FillMeasure::matched && lattice.covered(x).measure >= least_own_part))
+          return;
         particles.push_back({x, sub_measure});
         if (measure == FillMeasure::matched) finder.add(number, s);
       });
   if (measure == FillMeasure::matched && !particles.empty()) {
     finder.finish();
-    match_measures(shape, lattice, finder, particles);
+    follow_boundary(shape, lattice, finder, particles);
   }
   return particles;
 }

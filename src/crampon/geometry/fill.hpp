@@ -22,8 +22,8 @@ struct FilledParticle {
 };
 
 enum class FillMeasure {
-  lattice,  ///< every particle has the measure of its sub-cell
-  matched   ///< measures follow the shape's boundary, and their sum is the shape's measure
+  lattice,  ///< every particle has the measure and the middle of its sub-cell
+  matched   ///< measures and places follow the shape's boundary, and the sum of measures is the shape's
 };
 
 /// Divides every cell into per_cell[k] equal sub-cells along axis k and puts a particle at the centre of each sub-cell whose centre is in
@@ -31,13 +31,13 @@ enum class FillMeasure {
 /// that round-off cannot make a mirrored shape fill differently. (Two bodies that share an edge which runs through centres both
 /// get them: let shared edges run between centres, as grid lines do.) Order: cells row by row, x fastest, and so within a cell.
 ///
-/// `matched`: the centre rule alone leaves a staircase, whose measure differs from a curved shape's by up to 1 % at ten cells across. A
-/// single factor would put that error into the density of the interior. Here each sub-cell on the boundary first gets the part of
-/// it that the shape covers; where the centre is outside and no particle was placed, that part goes in equal shares to the
-/// particles of the nearest neighbour sub-cells (faces, else edges, else corners). So mass is right where it lies and the one factor
-/// that remains differs from 1 by the error of the covered parts alone. Counted in whole fractions of a sub-cell: mirror images get
+/// `matched`: the centre rule alone leaves a staircase, whose measure differs from a curved shape's by up to 1 % at ten cells across, and which is a
+/// rough quadrature of what lies along an oblique face. Here each sub-cell of which the shape covers a fifth has a particle, too, with the
+/// measure and the middle of the part that it covers. Smaller parts go in equal shares to the particles of the nearest neighbour
+/// sub-cells (faces, else edges, else corners), moments included. So mass and first moments are right where they lie, and the one factor that
+/// remains differs from 1 by the error of the covered parts alone. Counted in whole fractions of a sub-cell: mirror images get
 /// equal measures to the last bit. The sum is the shape's measure() to round-off where that is known, of the grid's dimension, and
-/// the shape lies in the grid; otherwise covered_measure().
+/// the shape lies in the grid; otherwise covered_measure(). A particle stays in its sub-cell.
 std::vector<FilledParticle> fill_shape(const Shape& shape, const FillGrid& grid, const std::array<int, 3>& per_cell,
                                        FillMeasure measure = FillMeasure::lattice);
 

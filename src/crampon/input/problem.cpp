@@ -75,7 +75,7 @@ const Declaration<MethodInput>& method_declaration() {
           .choice("crack_shape_functions", &MethodInput::crack_shape_functions,
                   {{"linear", CrackShapeFunctions::linear}, {"same", CrackShapeFunctions::same}},
                   "by what crack points are moved: linear functions, or B-splines where particles have them")
-          .function("damping", &MethodInput::damping, "1/s", "grid damping kappa (N03 Eq. 4); may vary in time")
+          .function("damping", &MethodInput::damping, "1/s", "damping kappa (N03 Eq. 4): a force -kappa m v; may vary in time")
           .function("particle_damping", &MethodInput::particle_damping, "1/s",
                     "damping of the particles' own velocities, which also reaches what nodes do not see; may vary in time")
           .one_of("transfer", &MethodInput::transfer, transfers, "how particles take up what nodes have found; left out: FLIP")
@@ -152,7 +152,10 @@ const Declaration<BodyInput>& body_declaration() {
           .integers("particles_per_cell", &BodyInput::particles_per_cell, Bounds::between(1, 64),
                     "particles per cell in each direction; one for all axes or one per axis; also the size of uGIMP particles",
                     Presence::optional, up_to_three)
-          .flag("match_mass", &BodyInput::match_mass, "scale the particle masses so that the body has the mass of its shape")
+          .flag("match_mass", &BodyInput::match_mass,
+                "each particle has the measure and the middle of the part of the shape that it stands for, or, left out or false, those of "
+                "its "
+                "whole sub-cell")
           .quantity("thickness", &BodyInput::thickness, "m", Bounds::positive(), "extent out of the plane (2D)")
           .function("velocity", &BodyInput::velocity, "m/s", "initial velocity, one per dimension; may depend on x, y, z",
                     Presence::optional, two_or_three)

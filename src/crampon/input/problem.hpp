@@ -147,7 +147,7 @@ struct BodyInput : Located {
   ShapePtr shape;                                   ///< either shape or particles
   std::optional<std::string> particles;             ///< CSV file, relative to the input: x,y[,z],volume[,vx,vy[,vz]], SI
   std::vector<std::int64_t> particles_per_cell{2};  ///< per direction; one value or one per axis; also the uGIMP particle size
-  bool match_mass = false;                          ///< scale particle masses so that the body's mass is the shape's
+  std::optional<bool> match_mass;                   ///< do particles follow the boundary of the shape? Left out: they do not
   double thickness = 1;                             ///< m, 2D only
   bool ignores_cracks = false;                      ///< cracks do not part it
   std::vector<ValueFunction> velocity;              ///< initial, m/s, of position, one per dimension or empty

@@ -173,15 +173,14 @@ class LoadBuilder {
       link.mirrored = mirrored;
       model_.faces.links.push_back(link);
       ++count;
-      const Vec<Dim>& x = bodies_.particles[p].x;
+      Vec<Dim> middle = lattice.centre(i);
       i[face.axis] += step;
       const std::uint32_t next = lattice.at(i);
       if (next != BodyLattice<Dim>::none) {
-        if (is_cut(x, bodies_.particles[next].x)) break;
+        if (is_cut(bodies_.particles[p].x, bodies_.particles[next].x)) break;
         p = next;
         continue;
       }
-      Vec<Dim> middle = x;
       middle[face.axis] += 0.5 * step * size;
       if (mirrored || !plane_of_face(model_.symmetries, middle, face.axis, 1e-6 * size)) break;
       mirrored = true;  // the same particle again, as its own image

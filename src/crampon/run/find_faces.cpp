@@ -39,6 +39,13 @@ IndexVector<Dim> BodyLattice<Dim>::index_of(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
+Vec<Dim> BodyLattice<Dim>::centre(const Index& i) const {
+  Vec<Dim> x;
+  for (int k = 0; k < Dim; ++k) x[k] = origin_[k] + (i[k] + 0.5) * sub_[k];
+  return x;
+}
+
+template <int Dim>
 std::uint32_t BodyLattice<Dim>::at(const Index& i) const {
   std::size_t at = 0;
   for (int k = Dim - 1; k >= 0; --k) {
@@ -100,15 +107,17 @@ std::vector<OuterFace<Dim>> find_outer_faces(const BodyLattice<Dim>& lattice, co
   std::vector<OuterFace<Dim>> faces;
   for (const std::uint32_t p : lattice.particles()) {
     const Vec<Dim>& x = bodies.particles[p].x;
+    const IndexVector<Dim> own = lattice.index_of(x);
+    const Vec<Dim> centre = lattice.centre(own);
     for (int axis = 0; axis < Dim; ++axis) {
       for (const int direction : {-1, 1}) {
-        IndexVector<Dim> beside = lattice.index_of(x);
+        IndexVector<Dim> beside = own;
         beside[axis] += direction;
         if (lattice.at(beside) != BodyLattice<Dim>::none) continue;
         Vec<Dim> step;
         step[axis] = direction * lattice.size(axis);
-        if (plane_of_face(symmetries, x + step * 0.5, axis, 1e-6 * lattice.size(axis))) continue;
-        OuterFace<Dim> face{p, axis, direction, x + step * 0.5, step * (1 / lattice.size(axis))};
+        if (plane_of_face(symmetries, centre + step * 0.5, axis, 1e-6 * lattice.size(axis))) continue;
+        OuterFace<Dim> face{p, axis, direction, centre + step * 0.5, step * (1 / lattice.size(axis))};
         if (shape.distance(in_space(x + step)) > 0) {  // else the grid ends here, and the body with it
           face.point = boundary_between(shape, x, step);
           const Vec<Dim> normal = normal_at(shape, face.point, 1e-4 * lattice.size(axis));

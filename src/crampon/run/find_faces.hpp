@@ -20,6 +20,8 @@ class BodyLattice {
   BodyLattice(const BuiltBodies<Dim>& bodies, const Grid<Dim>& grid, std::size_t body);
 
   Index index_of(const Vec<Dim>& x) const;
+  /// The middle of a sub-cell, m.
+  Vec<Dim> centre(const Index& i) const;
   /// Id of the particle there, or none.
   std::uint32_t at(const Index& i) const;
   double size(int axis) const { return sub_[axis]; }  ///< of a sub-cell, m

@@ -93,6 +93,14 @@ struct Grid {
     for (int k = 1; k < Dim; ++k) h = std::fmin(h, cell[k]);
     return h;
   }
+  /// Are the sides of cells equal, but for a tenth?
+  bool has_even_cells() const {
+    const double shortest = smallest_cell();
+    for (int k = 0; k < Dim; ++k) {
+      if (cell[k] > 1.1 * shortest) return false;
+    }
+    return true;
+  }
 };
 
 /// Coordinates of local node or neighbour number n in a box of `side`^Dim.

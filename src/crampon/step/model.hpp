@@ -43,6 +43,7 @@ struct MaterialField {
   std::uint16_t bonded_to = 0;  ///< the lowest field to which a chain of bonded laws joins it; itself where there is none
   double thickness = 1;         ///< m, 2D
   double half_size = 0;         ///< of its particles, along their longest side, cells
+  double uneven_edge = 0;       ///< how deep behind its surface its particles may fill space unevenly, cells
   EdgeMap edge;                 ///< from the mean position of its particles about a node to its edge
 };
 
@@ -108,7 +109,7 @@ struct Model {
   std::vector<Vec<Dim>> field_normals{1};     ///< [field][field]: normal from the first to the second; zero: to be found
   std::vector<RigidBody<Dim>> rigid_bodies;
   /// By number of a particle: from its middle at the start to the nearest point of its body's surface, m. Zero: deep in its body; not a number:
-  /// nobody knows (particles from a file). Kept where rigid faces ask for it.
+  /// nobody knows (particles from a file). Kept where rigid faces or outlines ask for it.
   std::vector<Vec<Dim>> surface;
   std::vector<ShapePtr> shapes;  ///< of bodies, as they were at the start; null: nobody knows
   /// By number of a particle: columns of the inverse of its deformation gradient at the start; empty where none bears stress from the start.
@@ -156,6 +157,11 @@ struct Model {
   bool any_rigid_face() const {
     return std::any_of(rigid_bodies.begin(), rigid_bodies.end(),
                        [](const RigidBody<Dim>& body) { return body.acts == RigidBody<Dim>::Acts::face; });
+  }
+  /// Are gaps those of the particles' outlines, one by one? In cells of unequal sides what a node sees of an oblique face depends too much on
+  /// where the face ends for mean positions to tell.
+  bool outlines_tell(ContactDetection detection) const {
+    return detection == ContactDetection::regression || (detection == ContactDetection::position && !grid.has_even_cells());
   }
   /// Does a field meet others at nodes, by its particles?
   bool meets_at_nodes(const MaterialField& field) const {

@@ -13,6 +13,7 @@ Notes find_notes(Start<Dim> start) {
            note_overlapping_bodies<Dim>,
            note_particles_in_walls<Dim>,
            note_large_particles<Dim>,
+           note_stairs_of_particles<Dim>,
            note_thin_rigid_bodies<Dim>,
            note_idle_cracks<Dim>,
            note_tangled_cracks<Dim>,

@@ -38,6 +38,9 @@ void note_particles_in_walls(const Start<Dim>& start, Notes& notes);
 /// Particles from a file that are larger than a cell.
 template <int Dim>
 void note_large_particles(const Start<Dim>& start, Notes& notes);
+/// Bodies whose particles have another measure than their shape.
+template <int Dim>
+void note_stairs_of_particles(const Start<Dim>& start, Notes& notes);
 /// Rigid bodies that meet others through nodes on both of their sides at once.
 template <int Dim>
 void note_thin_rigid_bodies(const Start<Dim>& start, Notes& notes);
