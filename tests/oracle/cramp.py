@@ -315,8 +315,9 @@ class Model:
 
     def answer_turns(self):
         """What nodes have beside sum S m v does work; particles take it up as a rigid turn, so that energy and angular momentum are kept."""
+        self.unseen = -math.expm1(-self.damping(self.t + self.lead) * self.dt) if self.positions == "strain" else 0.0
         for piece in self.pieces:
-            piece.couple = piece.torque = 0.0
+            piece.couple = piece.torque = piece.read = 0.0
         for key, f in self.f.items():
             piece = self.turning(key)
             if not piece:
@@ -325,12 +326,16 @@ class Model:
             e = self.arm(key)
             piece.couple += e[0] * a[1] - e[1] * a[0]
             x = self.grid.position(key[0])
-            piece.torque += (x[0] - piece.centre[0]) * f[1] - (x[1] - piece.centre[1]) * f[0]
+            r = [x[k] - piece.centre[k] for k in range(2)]
+            piece.torque += r[0] * f[1] - r[1] * f[0]
+            # Angular momentum of particles that take the velocities of nodes.
+            piece.read += sum(s * (self.m[key] * r[k] - e[k]) * self.p[key][1 - k] / self.m[key] for k, s in ((0, 1), (1, -1)))
         for piece in self.pieces:
             if not piece.turns:
                 continue
             piece.answer = piece.couple / piece.inertia
-            piece.turn_after = piece.turn + self.dt * piece.torque / piece.inertia
+            own = 1 - self.unseen
+            piece.turn_after = own * piece.turn + (self.unseen * piece.read + own * self.dt * piece.torque) / piece.inertia
 
     def add_turns(self, which, ahead):
         """Of velocities of a time that is ahead of the positions by so much: w x e + ahead w x (w x e)."""
@@ -542,13 +547,19 @@ class Model:
                 f[k] -= kappa * self.p[key][k]
 
     def update_particles(self):
-        """N03 Eq. 30: velocities now, positions returned (they advance at the end of the step)."""
+        """N03 Eq. 30: velocities now, positions returned (they advance at the end of the step).
+
+        Damping takes from a particle as much of what nodes do not see of its velocity as it takes from nodes.
+        """
         for p in self.particles:
             for key, S, G, R, _, offset in p.pairs:
                 for k in range(2):
                     p.v[k] += S * (self.dt * R[k] * self.f[key][k] / self.m[key] + offset[1][k] - offset[0][k])
             p.v[0] -= self.dt * p.piece.answer * (p.x[1] - p.piece.centre[1])
             p.v[1] += self.dt * p.piece.answer * (p.x[0] - p.piece.centre[0])
+            for k in range(2):
+                of_nodes = sum(S * (R[k] * self.p[key][k] / self.m[key] + offset[1][k]) for key, S, _, R, _, offset in p.pairs)
+                p.v[k] += self.unseen * (of_nodes - p.v[k])
         return self.moved_positions()
 
     def moved_positions(self):

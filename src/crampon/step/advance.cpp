@@ -145,7 +145,7 @@ void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watc
     account_loads<Dim, Shape>(state, model, b, dt);
     account_mirrored_forces<Dim, Shape>(state, model, b, dt, load_values, body_force, damping);
   });
-  const VelocityRule rule = velocity_rule(model.transfer, transfer, scheme, dt, particle_damping);
+  const VelocityRule rule = velocity_rule(model.transfer, transfer, scheme, model.positions, dt, damping, particle_damping);
   const bool body_works_anew = transfer.re_extrapolates && !rule.is_flip() && model.any_body_force();
   if (body_works_anew) phases.blocks("account loads", [&](B b) { account_body_force(state, model, b, -0.5 * dt, body_force); });
   if (transfer.terms > 0) {  // XPIC, FMPM

@@ -25,8 +25,9 @@ void take_velocity(Particles<Dim>& particles, std::size_t p, const MotionRecord<
   const auto loss = [&](const Vec<Dim>& from, const Vec<Dim>& to) {
     return particles.mass(p) * (0.5 * (dot(from, from) - dot(to, to)) + rule.strain_share * dot(g, to - from));
   };
-  if (rule.nodal > 0) ledger.transfer_loss += loss(V + g, taken);
-  ledger.damping += loss(taken, damped);
+  const double of_nodes = rule.nodal > 0 ? loss(V + g, taken) : 0.;
+  ledger.transfer_loss += (1 - rule.share_of_damping) * of_nodes;
+  ledger.damping += rule.share_of_damping * of_nodes + loss(taken, damped);
   particles.set_motion(p, particles.position(p), damped);
 }
 

@@ -56,12 +56,17 @@ StepTransfer step_transfer(const TransferSpec& transfer, StressUpdate update, Po
   return out;
 }
 
-VelocityRule velocity_rule(const TransferSpec& transfer, const StepTransfer& step, StressUpdate update, double dt,
-                           double particle_damping) {
+VelocityRule velocity_rule(const TransferSpec& transfer, const StepTransfer& step, StressUpdate update, PositionUpdate positions, double dt,
+                           double damping, double particle_damping) {
   VelocityRule rule;
   const auto* flip = std::get_if<FlipTransfer>(&transfer);
-  rule.nodal = step.terms > 0 ? 1. : flip ? flip->pic : 0.;
+  const double of_transfer = step.terms > 0 ? 1.
+                             : flip         ? flip->pic
+                                            : 0.,
+               of_damping = positions == PositionUpdate::n03 ? 0. : -std::expm1(-damping * dt) * (1 - of_transfer);
+  rule.nodal = of_transfer + of_damping;
   rule.own = 1 - rule.nodal;
+  rule.share_of_damping = of_damping > 0 ? of_damping / rule.nodal : 0.;
   rule.gain = rule.own * dt;
   rule.damped = -std::expm1(-particle_damping * dt);
   rule.dt = dt;

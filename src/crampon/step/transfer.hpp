@@ -49,9 +49,10 @@ StepTransfer step_transfer(const TransferSpec&, StressUpdate, PositionUpdate, st
 /// What a particle makes of its velocity V in Task 5: taken = own V + nodal (sum S v') + gain (sum S a). Then damping takes `damped` V away.
 struct VelocityRule {
   double own = 1, nodal = 0;
-  double gain = 0;    ///< s
-  double damped = 0;  ///< 1 - exp(-kappa_p dt)
-  double dt = 0;      ///< s
+  double gain = 0;              ///< s
+  double damped = 0;            ///< 1 - exp(-kappa_p dt)
+  double share_of_damping = 0;  ///< of what goes with `nodal`
+  double dt = 0;                ///< s
   /// A change d of a particle's velocity changes the work on the strain that follows by strain_share m d . (dt sum S a). It is half of the
   /// step's; with USL, which has strained with the velocities before, the other half is missing instead.
   double strain_share = 0.5;
@@ -59,7 +60,9 @@ struct VelocityRule {
   bool is_flip() const { return own == 1 && nodal == 0 && damped == 0; }
 };
 
-/// particle_damping: 1/s
-VelocityRule velocity_rule(const TransferSpec&, const StepTransfer&, StressUpdate, double dt, double particle_damping);
+/// Damping of nodes (1/s) takes from FLIP particles as much of what nodes do not see of their velocities as it takes from nodes: it is a force on
+/// particles. N03 Eq. 30 (PositionUpdate::n03) leaves that. particle_damping: 1/s.
+VelocityRule velocity_rule(const TransferSpec&, const StepTransfer&, StressUpdate, PositionUpdate, double dt, double damping,
+                           double particle_damping);
 
 }  // namespace crampon
