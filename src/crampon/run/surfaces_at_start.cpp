@@ -82,7 +82,7 @@ void keep_undeformed(const State<Dim>& state, Model<Dim>& model) {
 
 template <int Dim>
 void keep_surfaces(const Problem& problem, const BuiltBodies<Dim>& bodies, const State<Dim>& state, Model<Dim>& model) {
-  if (!model.any_rigid_face()) return;
+  if (!model.any_rigid_face() && !(model.fields.size() > 1 && model.outlines_tell(model.contact.material_detection))) return;
   std::vector<std::uint16_t> joined(problem.bodies.size());
   for (const NewParticle<Dim>& p : bodies.particles) {
     if (p.body < joined.size()) joined[p.body] = model.fields[model.materials[p.material].field].bonded_to;

@@ -84,13 +84,18 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
                 point.half_size[k] = material.half_size[k] * model.grid.cell[k];
                 for (int d = 0; d < Dim; ++d) point.F[k][d] = F[d * Dim + k][l];
               }
+              if (!model.surface.empty()) {
+                const std::uint32_t id = state.particles.id[p];
+                const std::array<Vec<Dim>, Dim> of_start = since_start<Dim>(model, id, point.F);
+                for (int k = 0; k < Dim; ++k) point.to_surface += of_start[k] * model.surface[id][k];
+              }
               for (int k = 0; k < Dim; ++k) {
                 const double x_i = model.grid.node_coordinate(k, node[k]);
                 if (t.mirrored >> k & 1u) {
                   // The mirror stands midway between the node and the one beyond it for which the pair was.
                   const int beyond = unflatten<Dim>(stencil.of.lowest(l) + T::steps[n], T::side)[k] + first[k] - T::offset;
                   point.x[k] = model.grid.node_coordinate(k, beyond) - point.x[k];
-                  point.mirror_deformation(k);
+                  point.mirror(k);
                 } else {
                   point.x[k] -= x_i;
                 }

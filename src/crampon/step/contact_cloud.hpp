@@ -21,6 +21,8 @@ struct CloudPoint {
   double m = 0;                   ///< m_p S_ip, kg
   std::array<Vec<Dim>, Dim> F{};  ///< columns of its deformation gradient
   Vec<Dim> half_size;             ///< of the particle at the start, m
+  Vec<Dim>
+      to_surface;  ///< from its middle to the nearest point of its body's surface, m; zero: it lies deep, or nobody asks; not a number: nobody knows
 
   /// From the middle of the deformed particle to the middles of its faces, m.
   std::array<Vec<Dim>, Dim> half_edges() const {
@@ -28,12 +30,25 @@ struct CloudPoint {
     for (int k = 0; k < Dim; ++k) r[k] *= half_size[k];
     return r;
   }
-  /// Its F in a mirror across axis k.
-  void mirror_deformation(int k) {
+  /// Its F and way to the surface in a mirror across axis k.
+  void mirror(int k) {
     for (auto& column : F) column[k] = -column[k];
     F[k] = -F[k];
+    to_surface[k] = -to_surface[k];
   }
 };
+
+/// Columns of the deformation gradient since the start of a particle whose law says F: those that bear stress from the start begin with another.
+template <int Dim>
+std::array<Vec<Dim>, Dim> since_start(const Model<Dim>& model, std::uint32_t id, const std::array<Vec<Dim>, Dim>& F) {
+  if (model.undeformed.empty()) return F;
+  const std::array<Vec<Dim>, Dim>& back = model.undeformed[id];
+  std::array<Vec<Dim>, Dim> of_start{};
+  for (int k = 0; k < Dim; ++k) {
+    for (int j = 0; j < Dim; ++j) of_start[k] += F[j] * back[k][j];
+  }
+  return of_start;
+}
 
 /// Particles by own node of a block, in the order of tiles and packs, so that sums over them do not depend on threads.
 template <int Dim>
@@ -55,7 +70,7 @@ class ContactCloud {
     for (std::size_t i = 0; i < count; ++i) {
       CloudPoint<Dim> image = points[i];
       image.x[k] = -image.x[k];
-      image.mirror_deformation(k);
+      image.mirror(k);
       points.push_back(image);
     }
   }

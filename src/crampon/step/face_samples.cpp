@@ -33,55 +33,24 @@ bool sees_edge(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec
   return false;
 }
 
-/// Where the surface of its body is before a particle.
+/// The way along n from the middle of a particle to its body's surface, m, where another side of the body is nearer; none within a cell and a half.
 template <int Dim>
-class Surface {
- public:
-  Surface(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {}
-
-  /// From the middle of a particle to the nearest point of its body's surface now, m, as the particle's deformation carries it; zero: the
-  /// particle lies deep in its body.
-  Vec<Dim> nearest(const CloudPoint<Dim>& point) const {
-    const Vec<Dim>& surface = model_.surface[state_.particles.id[point.particle]];
-    const std::array<Vec<Dim>, Dim> F = deformation(point);
-    Vec<Dim> now;
-    for (int k = 0; k < Dim; ++k) now += F[k] * surface[k];
-    return now;
+std::optional<double> way_to_surface(const State<Dim>& state, const Model<Dim>& model, const CloudPoint<Dim>& point, const Vec<Dim>& n) {
+  const std::array<Vec<Dim>, Dim> F = since_start<Dim>(model, state.particles.id[point.particle], point.F);
+  Vec<Dim> line, stretched;
+  for (int k = 0; k < Dim; ++k) line[k] = dot(F[k], n);
+  line = normalized(line);
+  Vec<3> from, to;
+  for (int k = 0; k < Dim; ++k) {
+    stretched += F[k] * line[k];
+    from[static_cast<std::size_t>(k)] = state.particles.original[point.particle][k];
+    to[static_cast<std::size_t>(k)] = line[k];
   }
-
-  /// The way along n to the surface, m, where another side of the body is nearer; none within a cell and a half.
-  std::optional<double> along(const CloudPoint<Dim>& point, const Vec<Dim>& n) const {
-    const std::array<Vec<Dim>, Dim> F = deformation(point);
-    Vec<Dim> line, stretched;
-    for (int k = 0; k < Dim; ++k) line[k] = dot(F[k], n);
-    line = normalized(line);
-    Vec<3> from, to;
-    for (int k = 0; k < Dim; ++k) {
-      stretched += F[k] * line[k];
-      from[static_cast<std::size_t>(k)] = state_.particles.original[point.particle][k];
-      to[static_cast<std::size_t>(k)] = line[k];
-    }
-    const double cell = model_.grid.smallest_cell();
-    const auto way = way_out(*model_.shapes[state_.particles.body[point.particle]], from, to, 1.5 * cell, 1e-9 * cell);
-    if (!way) return std::nullopt;
-    return *way * norm(stretched);
-  }
-
- private:
-  /// Columns of the deformation gradient since the start.
-  std::array<Vec<Dim>, Dim> deformation(const CloudPoint<Dim>& point) const {
-    if (model_.undeformed.empty()) return point.F;
-    const std::array<Vec<Dim>, Dim>& back = model_.undeformed[state_.particles.id[point.particle]];
-    std::array<Vec<Dim>, Dim> F{};
-    for (int k = 0; k < Dim; ++k) {
-      for (int j = 0; j < Dim; ++j) F[k] += point.F[j] * back[k][j];
-    }
-    return F;
-  }
-
-  const State<Dim>& state_;
-  const Model<Dim>& model_;
-};
+  const double cell = model.grid.smallest_cell();
+  const auto way = way_out(*model.shapes[state.particles.body[point.particle]], from, to, 1.5 * cell, 1e-9 * cell);
+  if (!way) return std::nullopt;
+  return *way * norm(stretched);
+}
 
 }  // namespace
 
@@ -91,7 +60,7 @@ void FaceSampler<Dim>::sample(const FaceGroup<Dim>& group, const std::size_t* sl
   const bool unknown = std::any_of(points.begin(), points.end(), [&](const CloudPoint<Dim>& point) {
     return std::isnan(model_.surface[state_.particles.id[point.particle]][0]);
   });
-  if (unknown && has_even_cells(model_.grid)) {
+  if (unknown && model_.grid.has_even_cells()) {
     sample_sums(group, slots, part, out);
   } else {
     sample_particles(part, points, out);
@@ -150,22 +119,20 @@ void FaceSampler<Dim>::sample_sums(const FaceGroup<Dim>& group, const std::size_
 template <int Dim>
 void FaceSampler<Dim>::sample_particles(const FacePart<Dim>& part, const std::vector<CloudPoint<Dim>>& points,
                                         std::vector<FaceSample<Dim>>& out) const {
-  const Surface<Dim> surface(state_, model_);
   for (CloudPoint<Dim> point : points) {
     const std::uint8_t mirrored = point.mirrored;
     for (int k = 0; k < Dim; ++k) {  // itself, not its image
-      if (mirrored >> k & 1u) point.mirror_deformation(k);
+      if (mirrored >> k & 1u) point.mirror(k);
     }
     const Vec<Dim> x = state_.particles.position(point.particle);
     std::optional<FaceSample<Dim>> sample;
-    const Vec<Dim> to_surface = surface.nearest(point);
-    if (std::isnan(to_surface[0])) {  // nobody knows: the particle's own outline
+    if (std::isnan(point.to_surface[0])) {  // nobody knows: the particle's own outline
       const RigidFaceView<Dim> view = see(part, x);
       double half = 0;
       for (const Vec<Dim>& r : point.half_edges()) half += std::fabs(dot(view.out, r));
       sample = FaceSample<Dim>{0, view.distance - half, -view.out, false};
-    } else if (to_surface != Vec<Dim>{}) {
-      sample = before_face(part, x, to_surface, [&](const Vec<Dim>& n) { return surface.along(point, n); });
+    } else if (point.to_surface != Vec<Dim>{}) {
+      sample = before_face(part, x, point.to_surface, [&](const Vec<Dim>& n) { return way_to_surface(state_, model_, point, n); });
     }
     if (!sample || sample->n == Vec<Dim>{}) continue;
     sample->S = point.S;

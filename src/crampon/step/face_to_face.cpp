@@ -205,7 +205,7 @@ template <int Dim>
 double FaceToFace<Dim>::gap_of_outlines(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const Vec<Dim>& n) {
   outlined_.clear();
   for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) {
-    outlined_.push_back({point.x, point.half_edges(), point.m, side});
+    outlined_.push_back({point.x, point.half_edges(), point.m, side, point.to_surface});
   });
   const Vec<Dim> directions[] = {n, a.g, b.g};
   return outline_gap<Dim>(outlined_, directions);
@@ -234,7 +234,7 @@ double FaceToFace<Dim>::gap(ContactDetection detection, const MeetingPlace<Dim>&
     case ContactDetection::position: {
       const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
       if (model_.contact.position_cutoff) return dot(apart(a, b), pair.n) - *model_.contact.position_cutoff * plane.h;
-      if (!has_even_cells(model_.grid) && !a.rigid && !b.rigid) return gap_of_outlines(place, a, b, pair.n);
+      if (!model_.grid.has_even_cells() && !a.rigid && !b.rigid) return gap_of_outlines(place, a, b, pair.n);
       return position_gap(dot(a.x, pair.n) / a.m, model_.fields[a.field].edge, dot(b.x, pair.n) / b.m, model_.fields[b.field].edge, plane);
     }
     case ContactDetection::regression: {

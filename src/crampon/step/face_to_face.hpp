@@ -87,16 +87,6 @@ struct MeetingPlace {
   const std::vector<CloudPoint<Dim>>* points = nullptr;
 };
 
-/// Are cells of equal sides, but for a tenth? In others what a node sees of an oblique face depends too much on where the face ends.
-template <int Dim>
-bool has_even_cells(const Grid<Dim>& grid) {
-  const double shortest = grid.smallest_cell();
-  for (int k = 0; k < Dim; ++k) {
-    if (grid.cell[k] > 1.1 * shortest) return false;
-  }
-  return true;
-}
-
 template <int Dim>
 class FaceToFace {
  public:

@@ -30,12 +30,9 @@ class NodeFinder {
     for (int node = 0; node < block_nodes<Dim>; ++node) collect_fields(node);
     const auto& c = model_.contact;
     const bool by_regression = c.normal == ContactNormal::logistic_regression || c.normal == ContactNormal::linear_regression;
-    const auto by_outline = [&](ContactDetection detection) {
-      return detection == ContactDetection::regression || (detection == ContactDetection::position && !has_even_cells(model_.grid));
-    };
-    const bool among_materials = model_.fields.size() > 1 && (by_regression || by_outline(c.material_detection));
-    const bool across_cracks =
-        by_outline(c.detection) || model_.any_law([](const ContactLawSpec& law) { return std::holds_alternative<InterfaceContact>(law); });
+    const bool among_materials = model_.fields.size() > 1 && (by_regression || model_.outlines_tell(c.material_detection));
+    const bool across_cracks = model_.outlines_tell(c.detection) ||
+                               model_.any_law([](const ContactLawSpec& law) { return std::holds_alternative<InterfaceContact>(law); });
     if (among_materials || across_cracks) collect_cloud(across_cracks);
     for (ContactNode<Dim>& node : out_.nodes) {
       read_faces(node);
