@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -108,7 +109,7 @@ TEST(Fill, SymmetricShapesFillSymmetrically) {
 
 TEST(Fill, MatchedMeasureAndMiddleAreTheShapesAndStaySmooth) {
   // Ten cells of 2 x 2 (2 x 2 x 2) particles across, and more.
-  const auto check = [](const Shape& shape, const Vec<3>& middle, int dimension, int cells_per_unit) {
+  const auto check = [](const Shape& shape, const std::optional<Vec<3>>& middle, int dimension, int cells_per_unit) {
     const FillGrid grid = grid_around_origin(dimension, cells_per_unit);
     const auto lattice = fill_shape(shape, grid, {2, 2, 2});
     const auto matched = fill_shape(shape, grid, {2, 2, 2}, FillMeasure::matched);
@@ -120,9 +121,12 @@ TEST(Fill, MatchedMeasureAndMiddleAreTheShapesAndStaySmooth) {
     Vec<3> moment;
     for (const FilledParticle& p : matched) moment += p.position * p.measure;
     // Whole numbers of 6e-8 of a sub-cell, and boundaries cut as planes.
-    EXPECT_LT(norm(moment * (1 / *shape.measure()) - middle), 2e-4 / cells_per_unit);
+    if (middle) {
+      EXPECT_LT(norm(moment * (1 / *shape.measure()) - *middle), 2e-4 / cells_per_unit);
+    }
     for (std::size_t k = 0; k < matched.size(); ++k) {
-      EXPECT_LT(shape.distance(matched[k].position), 1e-3 * reach);
+      // The middle of what a particle stands for at a re-entrant corner lies outside: of the polygon here, by a tenth of a sub-cell.
+      EXPECT_LT(shape.distance(matched[k].position), (middle ? 1e-3 : 0.1) * reach);
       // Far from the boundary the density is untouched: the common factor is within the error of the covered parts.
       if (shape.distance(matched[k].position) < -reach) {
         EXPECT_NEAR(matched[k].measure, sub, 2e-4 * sub);
@@ -133,15 +137,16 @@ TEST(Fill, MatchedMeasureAndMiddleAreTheShapesAndStaySmooth) {
     }
   };
   for (const int cells : {10, 13, 25}) {
-    check(Disk({{0, 0}}, .5), {}, 2, cells);
-    check(Disk({{.013, .021}}, .5), {{.013, .021, 0}}, 2, cells);
-    check(Ring({{.01, 0}}, .3, .6), {{.01, 0, 0}}, 2, cells);
-    check(Ellipse({{0, .01}}, {{.75, .5}}, .3), {{0, .01, 0}}, 2, cells);
-    check(Rectangle({{-.51, -.52}}, {{.52, .53}}), {{.005, .005, 0}}, 2, cells);
+    check(Disk({{0, 0}}, .5), Vec<3>{}, 2, cells);
+    check(Disk({{.013, .021}}, .5), Vec<3>{{.013, .021, 0}}, 2, cells);
+    check(Ring({{.01, 0}}, .3, .6), Vec<3>{{.01, 0, 0}}, 2, cells);
+    check(Ellipse({{0, .01}}, {{.75, .5}}, .3), Vec<3>{{0, .01, 0}}, 2, cells);
+    check(*plane_shapes()[8].shape, std::nullopt, 2, 2 * cells);
+    check(Rectangle({{-.51, -.52}}, {{.52, .53}}), Vec<3>{{.005, .005, 0}}, 2, cells);
   }
-  check(Sphere({{0, 0, 0}}, .5), {}, 3, 10);
-  check(Sphere({{.013, .02, -.01}}, .5), {{.013, .02, -.01}}, 3, 12);
-  check(Cylinder({{-.3, -.4, -.5}}, {{.3, .4, .5}}, .5), {}, 3, 10);
+  check(Sphere({{0, 0, 0}}, .5), Vec<3>{}, 3, 10);
+  check(Sphere({{.013, .02, -.01}}, .5), Vec<3>{{.013, .02, -.01}}, 3, 12);
+  check(Cylinder({{-.3, -.4, -.5}}, {{.3, .4, .5}}, .5), Vec<3>{}, 3, 10);
 }
 
 TEST(Fill, CoveredMeasureWithoutAClosedForm) {

@@ -79,13 +79,13 @@ struct Rebound {
 };
 void PrintTo(const Rebound& c, std::ostream* out) { *out << c.shape_functions << ", " << c.speed << " m/s, cells of " << c.cell; }
 class ReboundOfDisks : public testing::TestWithParam<Rebound> {};
+using ReboundOfDisksFull = ReboundOfDisks;
 
 /// Row 43, the disks of Sulsky, Chen and Schreyer (CMAME 118 (1994) 179): they meet along a diagonal of the grid, at 1.586 s, and go back.
 /// All energy is kept. How much of it is kinetic again depends on what vibrates in them: at 0.1 m/s, a tenth of the wave speed, 0.75 in
 /// the row's cells of 0.05 m and 0.88 in cells of a quarter of that. (In a single field, which acts a cell early and softly, 0.93.) The row
 /// asks for 0.95, which a collision slow against the waves reaches.
-TEST_P(ReboundOfDisks, KeepsTheEnergy) {
-  const Rebound& c = GetParam();
+void expect_energy(const Rebound& c) {
   const auto simulation = make(fmt::format(R"(
 analysis = "plane_strain"
 [grid]
@@ -130,19 +130,23 @@ velocity = [-{}, -{}]
     momentum = std::fmax(momentum, std::hypot(value(s, "momentum_x"), value(s, "momentum_y")));
   });
   kinetic /= mean_of;
-  RecordProperty("met", fmt::format("{:.3f}", met / meeting));
-  RecordProperty("energy", fmt::format("{:.4f} to {:.4f}", lowest / energy, highest / energy));
-  RecordProperty("kinetic", fmt::format("{:.4f}", kinetic));
-  RecordProperty("closure", fmt::format("{:.2e}", value(*simulation, "energy_closure") / energy));
+  testing::Test::RecordProperty("met", fmt::format("{:.3f}", met / meeting));
+  testing::Test::RecordProperty("energy", fmt::format("{:.4f} to {:.4f}", lowest / energy, highest / energy));
+  testing::Test::RecordProperty("kinetic", fmt::format("{:.4f}", kinetic));
+  testing::Test::RecordProperty("closure", fmt::format("{:.2e}", value(*simulation, "energy_closure") / energy));
   EXPECT_NEAR(met, meeting, 0.02 * meeting);  // a tenth of a cell, for rims are staircases
   EXPECT_LT(highest, 1.01 * energy);          // the row's 1 %
-  EXPECT_GT(lowest, 0.989 * energy);          // .9895 with four cells in the radius, .99 and more with eight
+  EXPECT_GT(lowest, 0.99 * energy);
   EXPECT_GE(kinetic, c.kinetic_at_least);
   EXPECT_LT(momentum, 1e-12 * 2 * mass * c.speed);
 }
+TEST_P(ReboundOfDisks, KeepsTheEnergy) { expect_energy(GetParam()); }
+TEST_P(ReboundOfDisksFull, KeepsTheEnergy) { expect_energy(GetParam()); }
+// Not met: with four cells in the radius .9897 and .9895 of the energy are left, since particles at the rim stand in the middle of what they stand for
+// (decision 0018); in the middle of whole sub-cells they met it.
+INSTANTIATE_TEST_SUITE_P(Disks, ReboundOfDisksFull, testing::Values(Rebound{"linear", 0.1, 0.05, 0.7}, Rebound{"gimp", 0.1, 0.05, 0.7}));
 INSTANTIATE_TEST_SUITE_P(Disks, ReboundOfDisks,
-                         testing::Values(Rebound{"linear", 0.1, 0.05, 0.7}, Rebound{"gimp", 0.1, 0.05, 0.7},
-                                         Rebound{"bspline", 0.1, 0.05, 0.7}, Rebound{"linear", 0.1, 0.025, 0.8},
+                         testing::Values(Rebound{"bspline", 0.1, 0.05, 0.7}, Rebound{"linear", 0.1, 0.025, 0.8},
                                          Rebound{"gimp", 0.1, 0.025, 0.8}, Rebound{"linear", 0.01, 0.025, 0.95},
                                          Rebound{"gimp", 0.01, 0.025, 0.95}, Rebound{"bspline", 0.01, 0.025, 0.92}));
 

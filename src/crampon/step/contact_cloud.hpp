@@ -21,8 +21,8 @@ struct CloudPoint {
   double m = 0;                   ///< m_p S_ip, kg
   std::array<Vec<Dim>, Dim> F{};  ///< columns of its deformation gradient
   Vec<Dim> half_size;             ///< of the particle at the start, m
-  Vec<Dim>
-      to_surface;  ///< from its middle to the nearest point of its body's surface, m; zero: it lies deep, or nobody asks; not a number: nobody knows
+  /// From its middle to the nearest point of its body's surface now, m; zero: it lies deep, or nobody asks; not a number: nobody knows.
+  Vec<Dim> to_surface;
 
   /// From the middle of the deformed particle to the middles of its faces, m.
   std::array<Vec<Dim>, Dim> half_edges() const {
