@@ -124,16 +124,16 @@ TEST(Fill, MatchedMeasureAndMiddleAreTheShapesAndStaySmooth) {
     if (middle) {
       EXPECT_LT(norm(moment * (1 / *shape.measure()) - *middle), 2e-4 / cells_per_unit);
     }
-    for (std::size_t k = 0; k < matched.size(); ++k) {
+    for (const FilledParticle& p : matched) {
       // The middle of what a particle stands for at a re-entrant corner lies outside: of the polygon here, by a tenth of a sub-cell.
-      EXPECT_LT(shape.distance(matched[k].position), (middle ? 1e-3 : 0.1) * reach);
+      EXPECT_LT(shape.distance(p.position), (middle ? 1e-3 : 0.1) * reach);
       // Far from the boundary the density is untouched: the common factor is within the error of the covered parts.
-      if (shape.distance(matched[k].position) < -reach) {
-        EXPECT_NEAR(matched[k].measure, sub, 2e-4 * sub);
+      if (shape.distance(p.position) < -reach) {
+        EXPECT_NEAR(p.measure, sub, 2e-4 * sub);
       }
       // At least a fifth of a sub-cell, and no more than its own and less than a fifth of those about it.
-      EXPECT_GT(matched[k].measure, .199 * sub);
-      EXPECT_LT(matched[k].measure, 1.6 * sub);
+      EXPECT_GT(p.measure, .199 * sub);
+      EXPECT_LT(p.measure, 1.6 * sub);
     }
   };
   for (const int cells : {10, 13, 25}) {
