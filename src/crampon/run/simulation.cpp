@@ -10,6 +10,7 @@
 #include "crampon/run/build_model.hpp"
 #include "crampon/run/check_memory.hpp"
 #include "crampon/run/history_sampler.hpp"
+#include "crampon/run/large_stretch.hpp"
 #include "crampon/run/notes/notes.hpp"
 #include "crampon/run/sample.hpp"
 #include "crampon/shape/bspline.hpp"
@@ -149,6 +150,7 @@ class Engine final : public Simulation {
     if (!state_.events.empty())
       out.push_back(fmt::format("traction laws failed at {} crack vertices; see events.csv", state_.events.size()));
     if (state_.removed > 0) out.push_back(fmt::format("{} particles left the grid and were removed", state_.removed));
+    if (auto note = tell_large_stretch(state_, model_)) out.push_back(std::move(*note));
     return out;
   }
 
