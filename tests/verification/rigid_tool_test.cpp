@@ -37,7 +37,7 @@ struct Drag {
 };
 
 /// A tool is pressed into a layer that is held at its foot, and then moves along it, to positive x.
-Drag drag(const Dragged& c, const Plane& shift, As as = As::shape) {
+Drag drag(const Dragged& c, const Plane& shift, As as = As::shape, const std::string& law = rubbing()) {
   const Tool& tool = *c.tool;
   const Placement at{c.degrees, shift};
   const double period = 2 * tool.height, pressing = 2 * period, speed = 0.04;
@@ -47,10 +47,10 @@ Drag drag(const Dragged& c, const Plane& shift, As as = As::shape) {
                               .reach = std::hypot(std::max(tool.width / 2, tool.reach + 4) + 3, std::max(tool.height + 4, 9.)) + 3,
                               .end = end,
                               .damping = 2 / tool.height,
-                              .law = rubbing(),
+                              .law = law,
                               .material = "neo_hookean",
                               .nu = 0.3});
-  text += rectangle_body(at, c.made, -tool.width / 2, -tool.height, tool.width / 2, 0);
+  text += rectangle_body(at, c.made, -tool.width / 2, -tool.height, tool.width / 2, 0, 1, *tool.wall == 'b');
   text += fmt::format("[[rigid]]\nname = \"base\"\nrole = \"boundary\"\nshape = {}\n",
                       at.shape(rectangle(-tool.width / 2 - 1, -tool.height - 3, tool.width / 2 + 1, -tool.height + 0.5)));
   const Plane along = at.direction(1, 0), down = at.direction(0, -1);
@@ -169,7 +169,8 @@ INSTANTIATE_TEST_SUITE_P(ToolsOnParticles, FlatToolFull, testing::ValuesIn(dragg
                          name_of);
 
 /// The pressure under a rounded tool that slides leans a little, and with it T/N. About the centre of its circle friction alone has a torque:
-/// mu R times the integral of pressure, which is F/sqrt(1 + mu^2) for the resultant F but for the spread of normals over the contact: 1 to 1.5 %.
+/// mu R times the integral of pressure, which is F/sqrt(1 + mu^2) for the resultant F but for the spread of normals over the contact. With cells a third as
+/// large T/N is .303 and the torque 1.0072.
 void expect_rounded(const Dragged& c, int count, testing::Test& test) {
   Range ratio, ratio_of_ball, turning, turning_of_ball, normal, normal_of_ball;
   const auto turns = [](const Drag& d) { return d.torque * std::hypot(1, friction) / (15 * friction * d.normal * std::hypot(1, d.ratio)); };
@@ -180,8 +181,7 @@ void expect_rounded(const Dragged& c, int count, testing::Test& test) {
     EXPECT_NEAR(d.ratio, ball.ratio, 0.003) << where;
     EXPECT_GE(d.ratio, 0.297) << where;
     EXPECT_LE(d.ratio, 0.313) << where;
-    EXPECT_GE(turns(d), 0.99) << where;
-    EXPECT_LE(turns(d), 1.02) << where;
+    EXPECT_NEAR(turns(d), 1.0072, 0.01) << where;
     ratio.take(d.ratio);
     ratio_of_ball.take(ball.ratio);
     turning.take(turns(d));
@@ -206,18 +206,33 @@ INSTANTIATE_TEST_SUITE_P(ToolsOnParticles, RoundedTool, testing::ValuesIn(dragge
 
 class RoundedToolFull : public testing::TestWithParam<Dragged> {};
 TEST_P(RoundedToolFull, RubsAndPressesAsABallDoes) { expect_rounded(GetParam(), 10, *this); }
-// At 30 degrees, where the layer is stairs of particles, not all met: T/N .2947 to .313, the torque of friction .972 of what it should be.
+// With linear functions at 30 degrees pressure leans by more than that, T/N .318 to .329, and the case is not met; its friction is (torque 1.005 to 1.013).
 INSTANTIATE_TEST_SUITE_P(Tools, RoundedToolFull, testing::ValuesIn(dragged({&rounded})), name_of);
+
+/// Without friction a round tool feels no torque about its centre, whatever the pressure and the grid: impulses act where their normal is that of the circle.
+TEST(FrictionlessRoundTool, FeelsNoTorque) {
+  double worst = 0;
+  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+    for (const double degrees : {0., 30., 45.}) {
+      for (const As as : {As::shape, As::wall}) {
+        const Drag d = drag({&rounded, shape_functions, degrees}, {0.3, 0.2}, as, "\"frictionless\"");
+        EXPECT_GT(d.normal, 0.5);
+        EXPECT_LT(std::fabs(d.torque), 1e-9 * 15 * d.normal) << shape_functions << " at " << degrees << " degrees";
+        worst = std::fmax(worst, std::fabs(d.torque) / (15 * d.normal));
+      }
+    }
+  }
+  RecordProperty("worst_torque_over_that_of_the_force", fmt::format("{:.1e}", worst));
+}
 
 /// In space: a ball, a lying cylinder and a plate over a layer on a base that is held, drawn at an angle to the grid. Friction points against
 /// the motion. Ball and plate do as the [[wall]] that is the same. Along the cylinder, where pressure has no part, friction is its share of mu N.
-/// Not all met, linear functions: along the cylinder friction reads .315, across a plate .005.
 TEST(ToolInSpaceFull, RubsWithItsFriction) {
   struct Solid {
     std::string shape;
     const char* wall;
   };
-  const std::string cut = "{ kind = \"box\", low = [-7, -7, 0], high = [7, 7, 1.3] }";
+  const std::string cut = "{ kind = \"box\", low = [-7, -7, 0], high = [7, 7, 3.3] }";
   const Solid solids[] = {
       {fmt::format("{{ kind = \"intersection\", of = [{{ kind = \"sphere\", centre = [0, 0, 8.3], radius = 8 }}, {}] }}", cut),
        "kind = \"ball\"\ncentre = [0, 0, 8.3]\nradius = 8\n"},
@@ -231,7 +246,7 @@ TEST(ToolInSpaceFull, RubsWithItsFriction) {
     std::string text = text_in_space(
         {.shape_functions = shape_functions, .end = end, .damping = 0.4, .law = rubbing(), .material = "neo_hookean", .nu = 0.3},
         {-14, -14, -8}, {14, 14, 8});
-    text += fmt::format("[[body]]\nname = \"layer\"\nmaterial = \"m\"\nshape = {}\n", box(-4, -4, -2.7, 4, 4, 0.3));
+    text += fmt::format("[[body]]\nname = \"layer\"\nmaterial = \"m\"\nmatch_mass = true\nshape = {}\n", box(-4, -4, -2.7, 4, 4, 0.3));
     text += fmt::format("[[rigid]]\nname = \"base\"\nrole = \"boundary\"\nshape = {}\n", box(-5, -5, -5, 5, 5, -2.2));
     const std::string along = fmt::format("times = [{}, {}]", start, start + 5);
     text += fmt::format(
@@ -255,24 +270,26 @@ TEST(ToolInSpaceFull, RubsWithItsFriction) {
     return d;
   };
   Range ratio, across, normal, along_cylinder;
-  for (const Solid& solid : solids) {
-    const auto d = drawn("linear", fmt::format("[[rigid]]\nshape = {}", solid.shape));
-    EXPECT_GT(d.normal, 0) << solid.shape;
-    ratio.take(d.along);
-    across.take(d.across);
-    if (*solid.wall == 0) {
-      EXPECT_NEAR(d.y * std::sqrt(5.), friction, 0.02 * friction) << solid.shape;
-      along_cylinder.take(d.y * std::sqrt(5.));
-      continue;
-    }
-    const auto wall = drawn("linear", fmt::format("[[wall]]\n{}", solid.wall));
-    EXPECT_NEAR(d.normal, wall.normal, 0.01 * wall.normal) << solid.shape;
-    EXPECT_NEAR(d.along, wall.along, 0.003) << solid.shape;
-    EXPECT_NEAR(d.across, wall.across, 0.003) << solid.shape;
-    normal.take(d.normal / wall.normal);
-    if (&solid != solids) {
-      EXPECT_NEAR(d.along, friction, 0.003) << solid.shape;
-      EXPECT_NEAR(d.across, 0, 0.003) << solid.shape;
+  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+    for (const Solid& solid : solids) {
+      const auto d = drawn(shape_functions, fmt::format("[[rigid]]\nshape = {}", solid.shape));
+      EXPECT_GT(d.normal, 0) << shape_functions << ", " << solid.shape;
+      ratio.take(d.along);
+      across.take(d.across);
+      if (*solid.wall == 0) {
+        EXPECT_NEAR(d.y * std::sqrt(5.), friction, 0.02 * friction) << shape_functions << ", " << solid.shape;
+        along_cylinder.take(d.y * std::sqrt(5.));
+        continue;
+      }
+      const auto wall = drawn(shape_functions, fmt::format("[[wall]]\n{}", solid.wall));
+      EXPECT_NEAR(d.normal, wall.normal, 0.01 * wall.normal) << shape_functions << ", " << solid.shape;
+      EXPECT_NEAR(d.along, wall.along, 0.003) << shape_functions << ", " << solid.shape;
+      EXPECT_NEAR(d.across, wall.across, 0.003) << shape_functions << ", " << solid.shape;
+      normal.take(d.normal / wall.normal);
+      if (&solid != solids) {
+        EXPECT_NEAR(d.along, friction, 0.003) << shape_functions << ", " << solid.shape;
+        EXPECT_NEAR(d.across, 0, 0.003) << shape_functions << ", " << solid.shape;
+      }
     }
   }
   RecordProperty("T_over_N", ratio.text());

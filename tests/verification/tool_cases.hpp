@@ -170,10 +170,11 @@ inline std::string body(const Placement& at, const std::vector<Grain>& grains, c
 /// particles from a file that turn with it.
 enum class Made { of_shape, of_particles };
 
+/// matched: do particles stand for what the shape has, also where it is not aligned with sub-cells? At an angle they always do.
 inline std::string rectangle_body(const Placement& at, Made made, double low_x, double low_y, double high_x, double high_y,
-                                  double cell_height = 1) {
+                                  double cell_height = 1, bool matched = false) {
   if (made == Made::of_particles) return body(at, grains_of_rectangle(low_x, low_y, high_x, high_y, 1, cell_height));
-  return fmt::format("[[body]]\nname = \"body\"\nmaterial = \"m\"\nmatch_mass = {}\nshape = {}\n", at.degrees != 0,
+  return fmt::format("[[body]]\nname = \"body\"\nmaterial = \"m\"\nmatch_mass = {}\nshape = {}\n", at.degrees != 0 || matched,
                      at.shape(rectangle(low_x, low_y, high_x, high_y)));
 }
 

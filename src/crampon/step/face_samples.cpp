@@ -10,27 +10,13 @@ namespace crampon {
 
 namespace {
 
-/// Normals that differ by less than this (cosine) are those of one face.
-constexpr double of_one_face = 0.9;
-
 /// Does x see an edge or a corner of the body, or a side that curves as sharply: does the normal turn with x as about a point of the surface? Or
-/// does the surface end before the point of it that x takes for the nearest? (Distances of combined shapes may be those of a part's face that
-/// another part has cut away.)
+/// does the surface end before the point of it that x takes for the nearest?
 template <int Dim>
 bool sees_edge(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x, const RigidFaceView<Dim>& view, double cell) {
-  if (std::fabs(distance_from(body, pose, x - view.out * view.distance)) > 1e-6 * cell) return true;
+  if (!is_surface(body, pose, x, view, cell)) return true;
   if (view.distance < 1e-6 * cell) return false;
-  const double step = 1e-3 * std::fmin(view.distance, cell);
-  for (int k = 0; k < Dim; ++k) {
-    Vec<Dim> along;
-    along[k] = 1;
-    along -= view.out * dot(along, view.out);
-    if (norm(along) < 0.5) continue;
-    along = normalized(along);
-    const Vec<Dim> turned = see_face(body, pose, x + along * step).out - view.out;
-    if (norm(turned) * view.distance > 0.5 * step) return true;
-  }
-  return false;
+  return turn_along_face(body, pose, x, view, 1e-3 * std::fmin(view.distance, cell)) * view.distance > 0.5;
 }
 
 /// The way along n from the middle of a particle to its body's surface, m, where another side of the body is nearer; none within a cell and a half.

@@ -3,13 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "crampon/contact/friction.hpp"
+#include "crampon/step/rigid_faces.hpp"
 
 namespace crampon {
 
 namespace {
+
+/// Up to this turn of the normal within a cell to either side, rad, a face is one all over a column: four cells of radius.
+constexpr double gentle_turn = 0.25;
+
+/// Where a column acts depends a little on the normal there: each turn leaves less than a hundredth of the one before.
+constexpr int turns_to_column = 6;
 
 /// Columns from parts that lie beside each other in one list.
 template <int Dim>
@@ -58,20 +66,17 @@ class ColumnLinker {
     column.name = -1 - ((first.column * Dim + first.axis) * 2 + first.up);
     ContactPair<Dim>& pair = column.pair;
     if (!look(begin, end, pair)) return;
+    weigh(begin, end, pair.n);
+    for (int k = 0; k < turns_to_column; ++k) {
+      const auto n = normal_at_column(begin, end, pair.n);
+      if (!n || *n == pair.n) break;
+      pair.n = *n;
+      weigh(begin, end, pair.n);
+    }
     column.first = static_cast<std::uint32_t>(out_.parts.size());
     double history = 0, m = 0;
-    double sum = 0, size = 0;
     for (const PartAt* at = begin; at != end; ++at) {
-      FacePart<Dim>& p = part(*at);
-      p.w = dot(p.gradient, pair.n);
-      sum += p.w;
-      size += std::fabs(p.w);
-    }
-    // Where volumes of particles differ, a node may have less than nothing of the face; not of a sliver of it.
-    const bool signed_parts = sum > 0.25 * size;
-    for (const PartAt* at = begin; at != end; ++at) {
-      FacePart<Dim>& p = part(*at);
-      if (!signed_parts) p.w = std::fmax(p.w, 0.);
+      const FacePart<Dim>& p = part(*at);
       if (p.w == 0) continue;
       column.w += p.w;
       history += p.history;
@@ -108,27 +113,68 @@ class ColumnLinker {
     double least[2] = {HUGE_VAL, HUGE_VAL};  // before faces, before edges
     for_samples([&](const FaceSample<Dim>& s) { least[s.edge] = std::fmin(least[s.edge], s.gap); });
     const double near = 0.25 * model_.grid.smallest_cell();
-    const bool before_edge = least[0] > least[1] + 2 * near;
-    if (least[before_edge] == HUGE_VAL) return false;
+    before_edge_ = least[0] > least[1] + 2 * near;
+    if (least[before_edge_] == HUGE_VAL) return false;
     double sum = 0, gap = 0, before = 0, beyond = 0;
     Vec<Dim> n;
     for_samples([&](const FaceSample<Dim>& s) {
-      if (s.gap <= least[before_edge] + 2 * near) (s.edge == before_edge ? before : beyond) += s.S;
-      if (s.edge != before_edge) return;
-      const double weight = s.S * std::fmax(1 - (s.gap - least[before_edge]) / near, 0.);
+      if (s.gap <= least[before_edge_] + 2 * near) (s.edge == before_edge_ ? before : beyond) += s.S;
+      if (s.edge != before_edge_) return;
+      const double weight = s.S * std::fmax(1 - (s.gap - least[before_edge_]) / near, 0.);
       sum += weight;
       gap += weight * s.gap;
       n += s.n * weight;
     });
-    if (!before_edge && beyond > before) return false;
+    if (!before_edge_ && beyond > before) return false;
     const Vec<Dim> given = given_normal(part(*begin));
-    pair.n = given == Vec<Dim>{} ? n : given;
-    for (int k = 0; k < Dim; ++k) {
-      if (part(*begin).mirror_axes >> k & 1u && part(*begin).axis != k) pair.n[k] = 0;
-    }
-    pair.n = normalized(pair.n);
+    pair.n = across_mirrors(part(*begin), given == Vec<Dim>{} ? n : given);
     pair.gap = gap / sum;
     return pair.n != Vec<Dim>{};
+  }
+
+  /// The nodes' parts of the face along n.
+  void weigh(const PartAt* begin, const PartAt* end, const Vec<Dim>& n) {
+    double sum = 0, size = 0;
+    for (const PartAt* at = begin; at != end; ++at) {
+      FacePart<Dim>& p = part(*at);
+      p.w = dot(p.gradient, n);
+      sum += p.w;
+      size += std::fabs(p.w);
+    }
+    // Where volumes of particles differ, a node may have less than nothing of the face; not of a sliver of it.
+    if (sum > 0.25 * size) return;
+    for (const PartAt* at = begin; at != end; ++at) part(*at).w = std::fmax(part(*at).w, 0.);
+  }
+
+  /// A face that curves gently has the normal that it has where the column acts, at sum w x/sum w: so pressure has no torque about the centre of a round
+  /// tool. In a column at an angle to the normal, particles, which stand deeper in the material, see the face some tenths of a cell to the side. n: what
+  /// they see. Empty at edges, and where the face curves so that it is what they see that counts.
+  std::optional<Vec<Dim>> normal_at_column(const PartAt* begin, const PartAt* end, const Vec<Dim>& n) {
+    if (before_edge_ || given_normal(part(*begin)) != Vec<Dim>{}) return std::nullopt;
+    double sum = 0;
+    Vec<Dim> x;
+    for (const PartAt* at = begin; at != end; ++at) {
+      sum += part(*at).w;
+      x += group(*at).x * part(*at).w;
+    }
+    if (sum <= 0) return std::nullopt;
+    x *= 1 / sum;
+    const RigidBody<Dim>& body = model_.rigid_bodies[part(*begin).body];
+    const RigidPose<Dim>& pose = state_.rigid[part(*begin).body].start;
+    const double cell = model_.grid.smallest_cell();
+    const RigidFaceView<Dim> view = see_face(body, pose, x);
+    const double turn = std::fmax(turn_along_face(body, pose, x, view, cell), turn_along_face(body, pose, x, view, -cell));
+    const bool gentle = turn * cell < gentle_turn && dot(-view.out, n) > of_one_face && is_surface(body, pose, x, view, cell);
+    if (!gentle) return std::nullopt;
+    return across_mirrors(part(*begin), -view.out);
+  }
+
+  /// On mirrors the normal lies in them, but for that of a face parallel to one.
+  Vec<Dim> across_mirrors(const FacePart<Dim>& p, Vec<Dim> n) const {
+    for (int k = 0; k < Dim; ++k) {
+      if (p.mirror_axes >> k & 1u && p.axis != k) n[k] = 0;
+    }
+    return normalized(n);
   }
 
   Vec<Dim> given_normal(const FacePart<Dim>& p) const {
@@ -170,7 +216,8 @@ class ColumnLinker {
   State<Dim>& state_;
   const Model<Dim>& model_;
   FaceContacts<Dim>& out_;
-  std::uint8_t face_ = 0;  ///< of those of one body along a column
+  std::uint8_t face_ = 0;     ///< of those of one body along a column
+  bool before_edge_ = false;  ///< does the column at hand lie before an edge of the rigid body?
 };
 
 }  // namespace

@@ -7,6 +7,9 @@
 
 namespace crampon {
 
+/// Normals that differ by less than this (cosine) are those of one face.
+constexpr double of_one_face = 0.9;
+
 /// A point as the body had it at the start, m.
 template <int Dim>
 Vec<3> in_body(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x) {
@@ -42,6 +45,29 @@ RigidFaceView<Dim> see_face(const RigidBody<Dim>& body, const RigidPose<Dim>& po
     for (std::size_t j = 0; j < Dim; ++j) view.out[k] += pose.turn[k][j] * out[j];
   }
   return view;
+}
+
+/// Is the point that x takes for the nearest of the surface on it? Distances of combined shapes may be those of a part's face that another part has cut away.
+template <int Dim>
+bool is_surface(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x, const RigidFaceView<Dim>& view, double cell) {
+  return std::fabs(distance_from(body, pose, x - view.out * view.distance)) <= 1e-6 * cell;
+}
+
+/// By how much the normal that x sees turns along the face, rad/m: 1/(R + d) at a distance d from a face of radius R, 1/d before an edge. In the
+/// direction in which it turns most, by a difference over `step`, m, which may be negative.
+template <int Dim>
+double turn_along_face(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x, const RigidFaceView<Dim>& view,
+                       double step) {
+  double most = 0;
+  for (int k = 0; k < Dim; ++k) {
+    Vec<Dim> along;
+    along[k] = 1;
+    along -= view.out * dot(along, view.out);
+    if (norm(along) < 0.5) continue;
+    along = normalized(along);
+    most = std::fmax(most, norm(see_face(body, pose, x + along * step).out - view.out) / std::fabs(step));
+  }
+  return most;
 }
 
 /// From a node to the furthest face whose body the node's shape function may see, m: `reach` in cells along an axis, n the face's unit normal.
