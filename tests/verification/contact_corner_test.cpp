@@ -141,5 +141,92 @@ INSTANTIATE_TEST_SUITE_P(Points, ContactCorner, testing::ValuesIn(corners({{2, 0
 INSTANTIATE_TEST_SUITE_P(Points, ContactCornerFull,
                          testing::ValuesIn(corners({{2, 0.5, 0.}, {2, 0., -0.5}, {4, 0.25, 0.75}, {4, 0.75, 0.}, {4, 0.5, -0.25}})));
 
+/// Eight blocks that meet at a point, in a cube of 1 m between walls without friction on all sides but the upper one, 10 kPa from above.
+struct Cube {
+  const char* shape_functions;
+  double mu;       ///< of friction between the blocks, which hold each other by it where they would not slide anyway
+  double x, y, z;  ///< of the point, in cells from the middle
+};
+void PrintTo(const Cube& c, std::ostream* out) {
+  *out << c.shape_functions << ", friction " << c.mu << ", at " << c.x << ", " << c.y << ", " << c.z;
+}
+
+Errors press(const Cube& c) {
+  const double point[] = {0.5 + c.x * cell, 0.5 + c.y * cell, 0.5 + c.z * cell};
+  std::string text = fmt::format(R"in(
+analysis = "three_dimensional"
+[grid]
+origin = [-0.5, -0.5, -0.5]
+size = [2, 2, 2]
+cell = {}
+[time]
+end = 0.6
+courant = 0.5
+[method]
+shape_functions = "{}"
+damping = 40
+[contact]
+fields = "bodies"
+default = {{ law = "coulomb", friction = {} }}
+[[material]]
+name = "soft"
+law = "elastic_small_strain"
+E = 1e6
+nu = {}
+density = 1000
+)in",
+                                 cell, c.shape_functions, c.mu, nu);
+  for (const char* axis : {"x", "y", "z"}) text += fmt::format("[[symmetry]]\naxis = \"{}\"\nat = 0\n", axis);
+  for (const char* axis : {"x", "y"}) text += fmt::format("[[symmetry]]\naxis = \"{}\"\nat = 1\nside = \"below\"\n", axis);
+  for (int block = 0; block < 8; ++block) {
+    double low[3], high[3];
+    for (int k = 0; k < 3; ++k) {
+      const bool upper = block >> k & 1;
+      low[k] = upper ? point[k] : 0;
+      high[k] = upper ? 1 : point[k];
+    }
+    text +=
+        fmt::format("[[body]]\nname = \"{}\"\nmaterial = \"soft\"\nshape = {{ kind = \"box\", low = [{}, {}, {}], high = [{}, {}, {}] }}\n",
+                    block, low[0], low[1], low[2], high[0], high[1], high[2]);
+    if (high[2] < 1) continue;
+    text += fmt::format(
+        "[[load]]\nkind = \"pressure\"\nbody = \"{}\"\nface = \"z+\"\nregion = {{ kind = \"box\", low = [-0.1, -0.1, 0.9], high = [1.1, "
+        "1.1, 1.1] }}\n"
+        "value = [{{ times = [0, 0.2], values = [0, {}] }}]\n",
+        block, pressure);
+  }
+  auto simulation = make(text);
+  const auto start = simulation->particles({}).positions.doubles();
+  run(*simulation);
+  const PointFrame frame = simulation->particles({"stress"});
+  const auto stress = field(frame, "stress").values.doubles();
+  Errors errors;
+  for (std::size_t p = 0; p < start.size() / 3; ++p) {
+    if (start[3 * p + 2] > 1 - 3 * cell) continue;
+    const double* s = &stress[6 * p];
+    double e = std::fabs(s[2] + pressure);
+    for (const int across : {0, 1}) e = std::fmax(e, std::fabs(s[across] + nu / (1 - nu) * pressure));
+    for (const int shear : {3, 4, 5}) e = std::fmax(e, std::fabs(s[shear]));
+    bool is_beside = true;
+    for (std::size_t k = 0; k < 3; ++k) is_beside = is_beside && std::fabs(start[3 * p + k] - point[k]) < 2 * cell;
+    double& worst = is_beside ? errors.beside : errors.away;
+    worst = std::fmax(worst, e / pressure);
+  }
+  return errors;
+}
+
+class ContactCornerInSpaceFull : public testing::TestWithParam<Cube> {};
+TEST_P(ContactCornerInSpaceFull, PassesAUniformStress) {
+  const Errors errors = press(GetParam());
+  RecordProperty("beside_percent", fmt::format("{:.3f}", 100 * errors.beside));
+  RecordProperty("away_percent", fmt::format("{:.3f}", 100 * errors.away));
+  EXPECT_LT(errors.away, 0.03);
+  EXPECT_LT(errors.beside, 0.1);
+}
+INSTANTIATE_TEST_SUITE_P(Points, ContactCornerInSpaceFull,
+                         testing::Values(Cube{"linear", 0, 0, 0, 0}, Cube{"gimp", 0, 0, 0, 0}, Cube{"bspline", 0, 0, 0, 0},
+                                         Cube{"linear", 0.3, 0.5, 0, -0.5}, Cube{"gimp", 0.3, 0.5, 0, -0.5},
+                                         Cube{"bspline", 0.3, 0.5, 0, -0.5}));
+
 }  // namespace
 }  // namespace crampon::test

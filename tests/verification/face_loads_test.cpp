@@ -378,5 +378,51 @@ TEST(FollowerPressure, IsPerAreaAsItIs) {
   }
 }
 
+/// A pressure all around a body has no resultant, however its boundary cuts the cells and whatever its particles stand for. Nothing has deformed yet.
+TEST(PressureAllAround, HasNoResultant) {
+  const char* const shapes[] = {
+      "{ kind = \"rotated\", angle = \"30 deg\", about = [0, 0], of = { kind = \"rectangle\", low = [-4, -4], high = [4, 4] } }",
+      "{ kind = \"disk\", centre = [0.13, 0.37], radius = 3.3 }",
+      "{ kind = \"polygon\", corners = [[-3, -3], [3, -3], [3, 1.3], [2.2, 1.3], [2.2, -2.2], [-3, -1.7]] }"};
+  double worst = 0;
+  for (const char* shape : shapes) {
+    for (const int per_cell : {1, 2, 3}) {
+      for (const char* matched : {"true", "false"}) {
+        const auto simulation = make(fmt::format(R"in(
+[grid]
+origin = [-8, -8]
+size = [16, 16]
+cell = 1
+[time]
+steps = 1
+step = 1e-9
+[[material]]
+name = "m"
+law = "elastic_small_strain"
+E = 1e6
+nu = 0.3
+density = 1000
+[[body]]
+name = "body"
+material = "m"
+match_mass = {}
+particles_per_cell = [{}]
+shape = {}
+[[load]]
+name = "all"
+kind = "pressure"
+value = 100
+)in",
+                                                 matched, per_cell, shape));
+        run(*simulation);
+        const double off = std::hypot(value(*simulation, "load_x.all"), value(*simulation, "load_y.all")) / (100 * 30);
+        EXPECT_LT(off, 1e-10) << shape << ", " << per_cell << " per cell, matched: " << matched;
+        worst = std::fmax(worst, off);
+      }
+    }
+  }
+  RecordProperty("worst_resultant", fmt::format("{:.1e}", worst));
+}
+
 }  // namespace
 }  // namespace crampon::test

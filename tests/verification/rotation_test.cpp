@@ -182,5 +182,26 @@ velocity = [{{ expression = "-4*y+x*x", unit = "m/s" }}, {{ expression = "4*x", 
   EXPECT_NEAR(value(*whole, "angular_momentum_z"), start, 1e-3 * start);
 }
 
+/// A piece of one particle has no moment of inertia, and no spin that round-off of its place could give it: it flies on as it was thrown.
+TEST(Pieces, OfOneParticleFlyOn) {
+  for (const int dim : {2, 3}) {
+    for (int k = 0; k < 20; ++k) {
+      // About the middle of a cell.
+      const double a = 0.53 + 0.04 * std::fmod(0.37 * k, 1.), b = 0.33 + 0.04 * std::fmod(0.61 * k, 1.),
+                   c = 0.63 + 0.04 * std::fmod(0.83 * k, 1.);
+      const std::string more = dim == 3 ? fmt::format(", {:.3f}", c) : "";
+      const auto simulation =
+          make(steps_of_box(dim, dim == 3 ? "[-2, -2, -2]" : "[-2, -2]", dim == 3 ? "[5, 5, 5]" : "[5, 5]", "steps = 60\nstep = 1e-3") +
+               fmt::format("[[body]]\nname = \"grain\"\nmaterial = \"m\"\nmatch_mass = true\nparticles_per_cell = [1]\nshape = {{ kind = "
+                           "\"{}\", centre = [{:.3f}, {:.3f}{}], "
+                           "radius = 0.05 }}\nvelocity = [1, 0.7{}]\n",
+                           dim == 3 ? "sphere" : "disk", a, b, more, dim == 3 ? ", 0.3" : ""));
+      const double start = value(*simulation, "kinetic_energy");
+      run(*simulation);
+      EXPECT_NEAR(value(*simulation, "kinetic_energy"), start, 1e-9 * start) << dim << "d at " << a << ", " << b;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace crampon::test

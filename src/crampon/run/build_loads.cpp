@@ -155,9 +155,18 @@ class LoadBuilder {
       link.flux = falls ? V * std::max(0., (to - link.depth) / (to - from)) : V;
       link.source = falls && link.depth < to ? V / (to - from) : 0.;
     }
-    // Volumes at the edge may be those of parts of sub-cells; the row bears what its middle says.
-    column.area = bodies_.particles[faces.links[column.first_link + count / 2].particle].volume / size;
+    column.area = middle_of_row(lattice, face) / size;
     faces.columns.push_back(column);
+  }
+
+  /// What the middle of a row stands for, m3: particles at its ends may stand for parts of their sub-cells, and for parts of others beside them. Of the
+  /// whole row, so that both of its ends have one area, and a pressure all around a body no resultant.
+  double middle_of_row(const BodyLattice<Dim>& lattice, const OuterFace<Dim>& face) const {
+    std::vector<double> volumes;
+    IndexVector<Dim> i = lattice.index_of(bodies_.particles[face.particle].x);
+    for (std::uint32_t p = face.particle; p != BodyLattice<Dim>::none; i[face.axis] -= face.direction, p = lattice.at(i))
+      volumes.push_back(bodies_.particles[p].volume);
+    return 0.5 * (volumes[(volumes.size() - 1) / 2] + volumes[volumes.size() / 2]);
   }
 
   /// Adds the row of particles behind a face as links, in a mirror if it meets one. Does it go on to this depth?

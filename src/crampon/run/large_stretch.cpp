@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "crampon/core/parallel.hpp"
+#include "crampon/step/contact_cloud.hpp"
 
 namespace crampon {
 
@@ -31,8 +32,11 @@ Stretched most_stretched(const State<Dim>& state, const Model<Dim>& model, const
     for (int l = 0; l < lanes; ++l) {
       const std::size_t p = pack * lanes + static_cast<std::size_t>(l);
       if (particles.is_padding(p)) continue;
+      std::array<Vec<Dim>, Dim> columns;
+      for (std::size_t c = 0; c < Dim * Dim; ++c) columns[c % Dim][c / Dim] = F_pack[c][l];
+      columns = since_start<Dim>(model, particles.id[p], columns);
       Eigen::Matrix<double, Dim, Dim> F;
-      for (int c = 0; c < Dim * Dim; ++c) F(c / Dim, c % Dim) = F_pack[c][l];
+      for (std::size_t c = 0; c < Dim * Dim; ++c) F(static_cast<int>(c / Dim), static_cast<int>(c % Dim)) = columns[c % Dim][c / Dim];
       if (F.squaredNorm() <= most.square) continue;  // no singular value is larger than this norm
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> stretches;
       const double square = stretches.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly).eigenvalues()[Dim - 1];
@@ -58,10 +62,10 @@ std::optional<std::string> tell_large_stretch(const State<Dim>& state, const Mod
   }
   if (!(most.square > large_stretch * large_stretch)) return std::nullopt;
   return fmt::format(
-      "the body \"{}\" is stretched to {:.3g} times its length at particle {}: from {:g} on, particles whose domains do not stretch leave "
-      "gaps, and a "
-      "body that is held so may tear by itself; compare with method.shape_functions = \"cpdi\"",
-      model.bodies[state.particles.body[most.particle]], std::sqrt(most.square), state.particles.id[most.particle], large_stretch);
+      "a particle of the body \"{}\" (number {}) is stretched to {:.3g} times its length: from {:g} on, particles whose domains do not "
+      "stretch leave "
+      "gaps, and a body that is held so may tear by itself; compare with method.shape_functions = \"cpdi\"",
+      model.bodies[state.particles.body[most.particle]], state.particles.id[most.particle], std::sqrt(most.square), large_stretch);
 }
 
 template std::optional<std::string> tell_large_stretch(const State<2>&, const Model<2>&);

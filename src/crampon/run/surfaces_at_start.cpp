@@ -52,10 +52,10 @@ Vec<Dim> nearest_free(const Shape& whole, const Vec<Dim>& x, const Vec<Dim>& own
 
 /// Of particles that bear stress from the start, what takes their deformation back.
 template <int Dim>
-void keep_undeformed(const State<Dim>& state, Model<Dim>& model) {
+void keep_undeformed(const State<Dim>& state, Model<Dim>& model, std::size_t count) {
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
   const Particles<Dim>& particles = state.particles;
-  model.undeformed.resize(model.surface.size());
+  model.undeformed.resize(count);
   for (const Run& run : state.blocks.runs) {
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
       Pack F[Dim * Dim];
@@ -82,6 +82,9 @@ void keep_undeformed(const State<Dim>& state, Model<Dim>& model) {
 
 template <int Dim>
 void keep_surfaces(const Problem& problem, const BuiltBodies<Dim>& bodies, const State<Dim>& state, Model<Dim>& model) {
+  const bool any = std::any_of(problem.bodies.begin(), problem.bodies.end(),
+                               [](const BodyInput& body) { return !std::holds_alternative<NoInitialStress>(body.initial_stress); });
+  if (any) keep_undeformed(state, model, bodies.particles.size());
   if (!model.any_rigid_face() && !(model.fields.size() > 1 && model.outlines_tell(model.contact.material_detection))) return;
   std::vector<std::uint16_t> joined(problem.bodies.size());
   for (const NewParticle<Dim>& p : bodies.particles) {
@@ -96,9 +99,6 @@ void keep_surfaces(const Problem& problem, const BuiltBodies<Dim>& bodies, const
                                                       depth_of_surface<Dim>(model.grid, bodies.per_cell[p.body]), 1e-9 * cell)
                                   : p.surface);
   }
-  const bool any = std::any_of(problem.bodies.begin(), problem.bodies.end(),
-                               [](const BodyInput& body) { return !std::holds_alternative<NoInitialStress>(body.initial_stress); });
-  if (any) keep_undeformed(state, model);
 }
 
 template void keep_surfaces<2>(const Problem&, const BuiltBodies<2>&, const State<2>&, Model<2>&);

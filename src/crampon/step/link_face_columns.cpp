@@ -13,11 +13,12 @@ namespace crampon {
 
 namespace {
 
-/// Up to this turn of the normal within a cell to either side, rad, a face is one all over a column: four cells of radius.
+/// Up to this turn of the normal within the longest side of a cell, rad, a face is one all over a column: a radius of four such sides.
 constexpr double gentle_turn = 0.25;
 
-/// Where a column acts depends a little on the normal there: each turn leaves less than a hundredth of the one before.
-constexpr int turns_to_column = 6;
+/// Where a column acts depends a little on the normal there: in most columns a turn leaves less than a hundredth of the one before, at the ends of a body a
+/// tenth.
+constexpr int most_turns = 20;
 
 /// Columns from parts that lie beside each other in one list.
 template <int Dim>
@@ -66,13 +67,7 @@ class ColumnLinker {
     column.name = -1 - ((first.column * Dim + first.axis) * 2 + first.up);
     ContactPair<Dim>& pair = column.pair;
     if (!look(begin, end, pair)) return;
-    weigh(begin, end, pair.n);
-    for (int k = 0; k < turns_to_column; ++k) {
-      const auto n = normal_at_column(begin, end, pair.n);
-      if (!n || *n == pair.n) break;
-      pair.n = *n;
-      weigh(begin, end, pair.n);
-    }
+    turn_to_column(begin, end, pair);
     column.first = static_cast<std::uint32_t>(out_.parts.size());
     double history = 0, m = 0;
     for (const PartAt* at = begin; at != end; ++at) {
@@ -132,25 +127,50 @@ class ColumnLinker {
     return pair.n != Vec<Dim>{};
   }
 
-  /// The nodes' parts of the face along n.
-  void weigh(const PartAt* begin, const PartAt* end, const Vec<Dim>& n) {
-    double sum = 0, size = 0;
+  /// The nodes' parts of the face along n; those below zero only where they may be.
+  void weigh(const PartAt* begin, const PartAt* end, const Vec<Dim>& n, bool signed_parts) {
     for (const PartAt* at = begin; at != end; ++at) {
       FacePart<Dim>& p = part(*at);
       p.w = dot(p.gradient, n);
-      sum += p.w;
-      size += std::fabs(p.w);
+      if (!signed_parts) p.w = std::fmax(p.w, 0.);
     }
-    // Where volumes of particles differ, a node may have less than nothing of the face; not of a sliver of it.
-    if (sum > 0.25 * size) return;
-    for (const PartAt* at = begin; at != end; ++at) part(*at).w = std::fmax(part(*at).w, 0.);
   }
 
-  /// A face that curves gently has the normal that it has where the column acts, at sum w x/sum w: so pressure has no torque about the centre of a round
-  /// tool. In a column at an angle to the normal, particles, which stand deeper in the material, see the face some tenths of a cell to the side. n: what
-  /// they see. Empty at edges, and where the face curves so that it is what they see that counts.
-  std::optional<Vec<Dim>> normal_at_column(const PartAt* begin, const PartAt* end, const Vec<Dim>& n) {
-    if (before_edge_ || given_normal(part(*begin)) != Vec<Dim>{}) return std::nullopt;
+  /// Where volumes of particles differ, a node may have less than nothing of the face; not of a sliver of it.
+  bool may_be_signed(const PartAt* begin, const PartAt* end, const Vec<Dim>& n) {
+    double sum = 0, size = 0;
+    for (const PartAt* at = begin; at != end; ++at) {
+      const double w = dot(part(*at).gradient, n);
+      sum += w;
+      size += std::fabs(w);
+    }
+    return sum > 0.25 * size;
+  }
+
+  /// Finds the parts of a column, and the normal that goes with them: a face that curves gently has the normal that it has where the column acts, at
+  /// sum w x/sum w. So pressure has no torque about the centre of a round tool. In a column at an angle to the normal, particles, which stand deeper in the
+  /// material, see the face some tenths of a cell to the side. Before other faces what the nearest particles see stands.
+  void turn_to_column(const PartAt* begin, const PartAt* end, ContactPair<Dim>& pair) {
+    const Vec<Dim> seen = pair.n;
+    const bool signed_parts = may_be_signed(begin, end, seen);
+    weigh(begin, end, seen, signed_parts);
+    if (before_edge_ || given_normal(part(*begin)) != Vec<Dim>{}) return;
+    Vec<Dim> n = seen;
+    for (int k = 0; k < most_turns; ++k) {
+      const auto turned = normal_at_column(begin, end);
+      if (!turned || dot(*turned, seen) < of_one_face) break;
+      const bool stays = norm(*turned - n) < 1e-12;
+      n = *turned;
+      weigh(begin, end, n, signed_parts);
+      if (!stays) continue;
+      pair.n = n;
+      return;
+    }
+    weigh(begin, end, seen, signed_parts);
+  }
+
+  /// The normal of a face that curves gently and evenly, at sum w x/sum w.
+  std::optional<Vec<Dim>> normal_at_column(const PartAt* begin, const PartAt* end) {
     double sum = 0;
     Vec<Dim> x;
     for (const PartAt* at = begin; at != end; ++at) {
@@ -161,11 +181,14 @@ class ColumnLinker {
     x *= 1 / sum;
     const RigidBody<Dim>& body = model_.rigid_bodies[part(*begin).body];
     const RigidPose<Dim>& pose = state_.rigid[part(*begin).body].start;
-    const double cell = model_.grid.smallest_cell();
     const RigidFaceView<Dim> view = see_face(body, pose, x);
-    const double turn = std::fmax(turn_along_face(body, pose, x, view, cell), turn_along_face(body, pose, x, view, -cell));
-    const bool gentle = turn * cell < gentle_turn && dot(-view.out, n) > of_one_face && is_surface(body, pose, x, view, cell);
-    if (!gentle) return std::nullopt;
+    if (!is_surface(body, pose, x, view, model_.grid.smallest_cell())) return std::nullopt;
+    double cell = 0;
+    for (int k = 0; k < Dim; ++k) cell = std::fmax(cell, model_.grid.cell[k]);
+    for (const double side : {cell, -cell}) {
+      const double near = turn_along_face(body, pose, x, view, 1e-3 * side) * cell, far = turn_along_face(body, pose, x, view, side) * cell;
+      if (far > gentle_turn || std::fabs(far - near) > 0.25 * far + 1e-9) return std::nullopt;
+    }
     return across_mirrors(part(*begin), -view.out);
   }
 

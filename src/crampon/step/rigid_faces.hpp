@@ -53,8 +53,8 @@ bool is_surface(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Ve
   return std::fabs(distance_from(body, pose, x - view.out * view.distance)) <= 1e-6 * cell;
 }
 
-/// By how much the normal that x sees turns along the face, rad/m: 1/(R + d) at a distance d from a face of radius R, 1/d before an edge. In the
-/// direction in which it turns most, by a difference over `step`, m, which may be negative.
+/// By how much the normal that x sees turns along the face, rad/m: 1/(R + d) at a distance d from a face of radius R, 1/d before an edge. The
+/// most along the axes of the grid, by a difference over `step`, m, which may be negative.
 template <int Dim>
 double turn_along_face(const RigidBody<Dim>& body, const RigidPose<Dim>& pose, const Vec<Dim>& x, const RigidFaceView<Dim>& view,
                        double step) {

@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::array<std::size_t, 3> next_axis{1, 2, 0};
 
-/// The rows of the inverse of a moment of inertia about the axes that are free; all zero where particles have no extent across one of them.
-std::array<Vec<3>, 3> inverse_of(Eigen::Matrix3d inertia, const std::array<bool, 3>& about) {
+/// The rows of the inverse of a moment of inertia about the axes that are free; all zero where particles have no extent across one of them. smallest: a
+/// trace below that, kg m2, is round-off of sums over one particle.
+std::array<Vec<3>, 3> inverse_of(Eigen::Matrix3d inertia, const std::array<bool, 3>& about, double smallest) {
   const double size = inertia.trace();
   for (int k = 0; k < 3; ++k) {
     if (about[static_cast<std::size_t>(k)]) continue;
@@ -24,6 +25,7 @@ std::array<Vec<3>, 3> inverse_of(Eigen::Matrix3d inertia, const std::array<bool,
     inertia(k, k) = size;
   }
   std::array<Vec<3>, 3> out{};
+  if (!(size > smallest)) return out;
   if (!(inertia.determinant() > 1e-12 * size * size * size)) return out;
   const Eigen::Matrix3d inverse = inertia.inverse();
   for (int i = 0; i < 3; ++i) {
@@ -141,7 +143,8 @@ void find_rotations(State<Dim>& state) {
     const Vec<3> to_centre = sum.first * (1 / sum.mass);
     rotation.centre = rotation.origin;
     for (std::size_t k = 0; k < Dim; ++k) rotation.centre[k] += to_centre[k];
-    rotation.inverse_inertia = inverse_of(inertia_about_centre(sum.squares, sum.products, sum.mass, to_centre), rotation.about);
+    rotation.inverse_inertia = inverse_of(inertia_about_centre(sum.squares, sum.products, sum.mass, to_centre), rotation.about,
+                                          1e-12 * (sum.squares[0] + sum.squares[1] + sum.squares[2]));
     rotation.spin = rotation.rotation_of(sum.angular - cross(to_centre, sum.momentum));
   }
 }
