@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(Tools, RoundedToolFull, testing::ValuesIn(dragged({&rou
 TEST(FrictionlessRoundTool, FeelsNoTorque) {
   double worst = 0;
   for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
-    for (const double degrees : {0., 30., 45.}) {
+    for (const double degrees : {0., 30.}) {
       for (const As as : {As::shape, As::wall}) {
         const Drag d = drag({&rounded, shape_functions, degrees}, {0.3, 0.2}, as, "\"frictionless\"");
         EXPECT_GT(d.normal, 0.5);
