@@ -20,28 +20,38 @@ void PrintTo(const Corner& c, std::ostream* out) {
 
 constexpr double cell = 0.125, pressure = 1e4, nu = 0.3;  // m, Pa
 
-/// A square of 1 m, E = 1 MPa, between walls without friction left, right and below, 10 kPa from above, faces inside without friction.
-std::string input(const Corner& c) {
-  const double x = 0.5 + c.x * cell, y = 0.5 + c.y * cell;
-  std::string text = fmt::format(R"in(
+/// Grid, material and method. E = 1 MPa. law: between bodies.
+std::string head(const char* analysis, const std::string& origin, const std::string& size, double end, const char* shape_functions,
+                 const std::string& law) {
+  return fmt::format(R"in(
+analysis = "{}"
 [grid]
-origin = [-0.5, -0.5]
-size = [2, 2]
+origin = {}
+size = {}
 cell = {}
 [time]
-end = 1.2
+end = {}
 courant = 0.5
 [method]
 shape_functions = "{}"
 damping = 40
 [contact]
 fields = "bodies"
+default = {}
 [[material]]
 name = "soft"
 law = "elastic_small_strain"
 E = 1e6
 nu = {}
 density = 1000
+)in",
+                     analysis, origin, size, cell, end, shape_functions, law, nu);
+}
+
+/// A square of 1 m between walls without friction left, right and below, 10 kPa from above, faces inside without friction.
+std::string input(const Corner& c) {
+  const double x = 0.5 + c.x * cell, y = 0.5 + c.y * cell;
+  std::string text = head("plane_strain", "[-0.5, -0.5]", "[2, 2]", 1.2, c.shape_functions, "\"frictionless\"") + R"in(
 [[symmetry]]
 axis = "y"
 at = 0
@@ -52,8 +62,7 @@ at = 0
 axis = "x"
 at = 1
 side = "below"
-)in",
-                                 cell, c.shape_functions, nu);
+)in";
   const auto body = [&](const char* name, const std::string& shape, bool loaded) {
     text += fmt::format("[[body]]\nname = \"{}\"\nmaterial = \"soft\"\nparticles_per_cell = [{}]\nshape = {{ {} }}\n", name,
                         c.particles_per_cell, shape);
@@ -153,29 +162,8 @@ void PrintTo(const Cube& c, std::ostream* out) {
 
 Errors press(const Cube& c) {
   const double point[] = {0.5 + c.x * cell, 0.5 + c.y * cell, 0.5 + c.z * cell};
-  std::string text = fmt::format(R"in(
-analysis = "three_dimensional"
-[grid]
-origin = [-0.5, -0.5, -0.5]
-size = [2, 2, 2]
-cell = {}
-[time]
-end = 0.6
-courant = 0.5
-[method]
-shape_functions = "{}"
-damping = 40
-[contact]
-fields = "bodies"
-default = {{ law = "coulomb", friction = {} }}
-[[material]]
-name = "soft"
-law = "elastic_small_strain"
-E = 1e6
-nu = {}
-density = 1000
-)in",
-                                 cell, c.shape_functions, c.mu, nu);
+  std::string text = head("three_dimensional", "[-0.5, -0.5, -0.5]", "[2, 2, 2]", 0.6, c.shape_functions,
+                          fmt::format("{{ law = \"coulomb\", friction = {} }}", c.mu));
   for (const char* axis : {"x", "y", "z"}) text += fmt::format("[[symmetry]]\naxis = \"{}\"\nat = 0\n", axis);
   for (const char* axis : {"x", "y"}) text += fmt::format("[[symmetry]]\naxis = \"{}\"\nat = 1\nside = \"below\"\n", axis);
   for (int block = 0; block < 8; ++block) {

@@ -153,9 +153,8 @@ const Declaration<BodyInput>& body_declaration() {
                     "particles per cell in each direction; one for all axes or one per axis; also the size of uGIMP particles",
                     Presence::optional, up_to_three)
           .flag("match_mass", &BodyInput::match_mass,
-                "each particle has the measure and the middle of the part of the shape that it stands for, or, left out or false, those of "
-                "its "
-                "whole sub-cell")
+                "each particle has the measure and the middle of the part of the shape that it stands for, or, left out or false, "
+                "those of its whole sub-cell")
           .quantity("thickness", &BodyInput::thickness, "m", Bounds::positive(), "extent out of the plane (2D)")
           .function("velocity", &BodyInput::velocity, "m/s", "initial velocity, one per dimension; may depend on x, y, z",
                     Presence::optional, two_or_three)

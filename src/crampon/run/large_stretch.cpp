@@ -63,8 +63,7 @@ std::optional<std::string> tell_large_stretch(const State<Dim>& state, const Mod
   if (!(most.square > large_stretch * large_stretch)) return std::nullopt;
   return fmt::format(
       "a particle of the body \"{}\" (number {}) is stretched to {:.3g} times its length: from {:g} on, particles whose domains do not "
-      "stretch leave "
-      "gaps, and a body that is held so may tear by itself; compare with method.shape_functions = \"cpdi\"",
+      "stretch leave gaps, and a body that is held so may tear by itself; compare with method.shape_functions = \"cpdi\"",
       model.bodies[state.particles.body[most.particle]], state.particles.id[most.particle], std::sqrt(most.square), large_stretch);
 }
 

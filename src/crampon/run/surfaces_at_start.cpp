@@ -82,9 +82,9 @@ void keep_undeformed(const State<Dim>& state, Model<Dim>& model, std::size_t cou
 
 template <int Dim>
 void keep_surfaces(const Problem& problem, const BuiltBodies<Dim>& bodies, const State<Dim>& state, Model<Dim>& model) {
-  const bool any = std::any_of(problem.bodies.begin(), problem.bodies.end(),
-                               [](const BodyInput& body) { return !std::holds_alternative<NoInitialStress>(body.initial_stress); });
-  if (any) keep_undeformed(state, model, bodies.particles.size());
+  const bool any_stress = std::any_of(problem.bodies.begin(), problem.bodies.end(),
+                                      [](const BodyInput& body) { return !std::holds_alternative<NoInitialStress>(body.initial_stress); });
+  if (any_stress) keep_undeformed(state, model, bodies.particles.size());
   if (!model.any_rigid_face() && !(model.fields.size() > 1 && model.outlines_tell(model.contact.material_detection))) return;
   std::vector<std::uint16_t> joined(problem.bodies.size());
   for (const NewParticle<Dim>& p : bodies.particles) {
