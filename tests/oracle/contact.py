@@ -1,7 +1,7 @@
-"""Contact across cracks at one node: the papers' literal scheme and the one of contact-consistency.md.
+"""Contact across cracks at one node: the papers' literal scheme and the consistent one (docs/theory/contact.md, the scheme).
 
 Fields joined by bonded cracks form one group with the common centre-of-mass velocity, as if the bonded cracks were not
-there (DESIGN 4, CONVENTIONS 14, 44). A pair is two groups whose signatures differ by one crack, or by several with no group between; a is above it, b below,
+there (conventions 13, 14, 44). A pair is two groups whose signatures differ by one crack, or by several with no group between; a is above, b below,
 n points from a to b, w = v_b - v_a. The impulse J acts as +J on b and -J on a: equal and opposite.
 """
 import math
@@ -19,7 +19,7 @@ class Pair:
         self.key = key  # (node, cracks between the two, other cracks between the pair and the node)
         self.previous = OPEN  # consistent scheme: Task-4 state of the last step
         self.state = OPEN
-        # Normal velocity after the pair's own impulse as it was applied ("w_end is taken after J", contact-consistency.md), in
+        # Normal velocity after the pair's own impulse as it was applied (docs/theory/contact.md, the scheme), in
         # this task and kept from Task 4. Of pairs done one after another the text does not say whether later ones count: no.
         self.w_after = self.w_end = 0.0
         self.J = (0.0, 0.0)
@@ -35,7 +35,7 @@ def field_number(signature):
 
 
 def friction(pair, stick_t, normal_impulse):
-    """Tangential impulse of the law: the one that sticks, cut to the friction cone (contact.md 3). Returns (J_t, state)."""
+    """Tangential impulse of the law: the one that sticks, cut to the friction cone (docs/theory/contact.md, impulses). Returns (J_t, state)."""
     law = pair.crack.law
     if law == "stick":
         return stick_t, STICK
@@ -56,7 +56,7 @@ def impulse(pair, m_red, w, J_n, closing):
 
 
 def literal_rule(model, dt, relative_volume):
-    """Contact found anew in each task from the velocities of that task (N03 2.2, contact.md 2.1, 2.2)."""
+    """Contact found anew in each task from the velocities of that task (N03 sec. 2.2; docs/theory/contact.md, detection)."""
     contact = model.contact
 
     def rule(pair, m_red, w):
@@ -117,7 +117,7 @@ def consistent_rule(task, model, dt, relative_volume):
 
 
 def bonded_always(rule):
-    """Bonded pairs, where they are pairs at all: the full stick impulse in every task, no detection (CONVENTIONS 44)."""
+    """Bonded pairs, where they are pairs at all: the full stick impulse in every task, no detection (conventions 44)."""
     return lambda pair, m_red, w: (-m_red * w[0], -m_red * w[1]) if pair.crack.law == "bonded" else rule(pair, m_red, w)
 
 

@@ -1,4 +1,4 @@
-"""Motion of crack planes and surfaces: N03 Eq. 32 and CONVENTIONS 39 for the plane; surface points are carried by particles.
+"""Motion of crack planes and surfaces: N03 Eq. 32 and conventions 39 for the plane; surface points are carried by particles.
 
 The plane moves with v = sum S v_cm where all nodes about have mass, else with the mean of its surface points. A surface point has the displacement
 that a linear fit to the particles about it, on its side of all cracks, has there; the fit is made once. Ends that lie outside of all particles,
@@ -194,7 +194,7 @@ def between_surfaces(model, crack, k):
 
 
 def fill(motions):
-    """Vertices that nothing moves go with the nearest vertex that something moves (CONVENTIONS 39)."""
+    """Vertices that nothing moves go with the nearest vertex that something moves (conventions 39)."""
     known = [k for k, v in enumerate(motions) if v is not None]
     if not known:
         return [(0.0, 0.0)] * len(motions)

@@ -85,7 +85,7 @@ class Model:
         for key, p in self.p.items():                          # Task 4, N03 Eq. 29
             for k in range(2):
                 if self.fixed_force == "n13" and k in self.fixed.get(key[0], {}):
-                    p[k] = self.p_int[key][k]                  # N13 Eq. 2 starts from p_int (CONVENTIONS 27)
+                    p[k] = self.p_int[key][k]                  # N13 Eq. 2 starts from p_int (conventions 27)
                 p[k] += dt * self.f[key][k]
         self.adjust_contact(4)
         self.answer_turns()
@@ -190,7 +190,7 @@ class Model:
         return self.held_faces[node]
 
     def assign_fields(self):
-        """v(p, i) of N03 Eq. 2 as the set of cracks crossed; crack normals at nodes over crossed pairs (CONVENTIONS 9)."""
+        """v(p, i) of N03 Eq. 2 as the set of cracks crossed; crack normals at nodes over crossed pairs (conventions 9)."""
         normal, original, side_sum = {}, {}, {}
         self.held_faces = {}
         for p in self.particles:
@@ -223,14 +223,14 @@ class Model:
         self.original_normal = {key: self.unit_normal(key[0], n) for key, n in original.items()}
 
     def unit_normal(self, node, n):
-        """On a symmetry plane without the component along the plane's normal (contact.md 6). None: nothing is left."""
+        """On a symmetry plane without the component along the plane's normal (docs/theory/contact.md, normals). None: nothing is left."""
         across = {s.axis for s in self.symmetries if s.holds(self.grid.position(node))}
         n = [0.0 if k in across else c for k, c in enumerate(n)]
         length = math.hypot(*n)
         return [c / length for c in n] if length > 1e-9 else None  # a sum of unit vectors: less is rounding
 
     def project_momentum(self):
-        """N03 Eqs. 26, 27, and mean positions per field (contact.md 2.2)."""
+        """N03 Eqs. 26, 27, and mean positions per field (docs/theory/step.md, detection)."""
         self.m, self.p, self.volume = {}, {}, {}
         self.x_sum, self.X_sum = {}, {}
         self.first_moment, self.pieces_at = {}, {}
@@ -391,7 +391,7 @@ class Model:
         """Groups of fields joined by bonded cracks, and the pairs of groups that face each other, for every node.
 
         Done one after another (N13), bonded cracks make pairs like others. Order: by crack, then by what else lies between
-        the pair and the node, as the number that N13 gives that field: [0][1], [2][3], then [0][2], [1][3] (CONVENTIONS 13).
+        the pair and the node, as the number that N13 gives that field: [0][1], [2][3], then [0][2], [1][3] (conventions 13).
         """
         self.groups, self.node_pairs = {}, {}
         members = {}
@@ -412,7 +412,7 @@ class Model:
 
     def facing(self, node, groups):
         """(above, below, cracks between that act) for the groups of a node that no other lies between: its signature would differ from both
-        by fewer cracks (CONVENTIONS 50). Above and below the first of these cracks. One after another (N13): one crack alone.
+        by fewer cracks (conventions 50). Above and below the first of these cracks. One after another (N13): one crack alone.
         """
         found = []
         for i, g in enumerate(groups):
@@ -429,7 +429,7 @@ class Model:
         return [item[1:] for item in sorted(found, key=lambda item: item[0])]
 
     def make_pair(self, node, between, groups, above, below):
-        """delta_n = (xbar_b - xbar_a).n - (Xbar_b - Xbar_a).N (contact.md 2.2) and the state of the last step. Of several cracks between the
+        """delta_n = (xbar_b - xbar_a).n - (Xbar_b - Xbar_a).N (docs/theory/step.md, detection) and the state of the last step. Of several cracks between the
         two the strictest law holds, and n is their mean.
         """
         crack = max(between, key=lambda c: (ct.STRICTNESS.index(c.law), c.friction if c.law == "coulomb" else 0, -c.index))
@@ -462,7 +462,7 @@ class Model:
         return pair
 
     def adjust_contact(self, task):
-        """Changes momenta; in Task 4 also the forces, f += dp/dt (N13 2.5)."""
+        """Changes momenta; in Task 4 also the forces, f += dp/dt (N13 sec. 2.5)."""
         for node, groups in self.groups.items():
             state = {}
             for signature, keys in groups.items():
@@ -502,7 +502,7 @@ class Model:
 
     # ---------------------------------------------------------------- boundary conditions
     def impose_velocity(self, t, task):
-        """Momentum of prescribed components at time t, the time the momentum refers to (CONVENTIONS 30).
+        """Momentum of prescribed components at time t, the time the momentum refers to (conventions 30).
 
         Incremental form: in the first step of a prescribed component the old velocity is p_int/m.
         """

@@ -1,4 +1,4 @@
-"""Does the line from a particle to a node cross a crack? fracture.md 1.3, in exact rational arithmetic.
+"""Does the line from a particle to a node cross a crack? The rules of docs/theory/crossing.md, in exact rational arithmetic.
 
 Points are pairs of floats; every float is a rational number, so the signs below carry no rounding at all.
 """
@@ -47,7 +47,7 @@ def crosses_segment(p, n, a, b, tip_a, tip_b):
 def crosses_crack(p, n, vertices):
     """(side, crossed segments): side is +1 above, -1 below, 0 when the number of crossed segments is even.
 
-    side = sign(#above - #below) over an odd number of crossed segments (CONVENTIONS 17).
+    side = sign(#above - #below) over an odd number of crossed segments (conventions 17).
     """
     last = len(vertices) - 2
     above_minus_below, segments = 0, []

@@ -9,7 +9,7 @@ import math
 
 class Elastic:
     follows_deformation = False
-    """Isotropic constants; plane stress replaces lambda by 2 lambda G/(lambda + 2 G) (kinematics.md 5)."""
+    """Isotropic constants; plane stress replaces lambda by 2 lambda G/(lambda + 2 G) (docs/theory/kinematics.md, elasticity with large rotation)."""
 
     def __init__(self, spec, analysis):
         E, nu = spec["E"], spec["nu"]
@@ -28,7 +28,7 @@ class Elastic:
 
 
 class SmallStrain(Elastic):
-    """N03 as it stands: strain increments of Eq. 35, specific stress sigma/rho0, volume of Eq. 9 (CONVENTIONS 43)."""
+    """N03 as it stands: strain increments of Eq. 35, specific stress sigma/rho0, volume of Eq. 9 (conventions 43)."""
 
     def __init__(self, spec, analysis):
         super().__init__(spec, analysis)
@@ -67,7 +67,7 @@ class FiniteDeformation(Elastic):
         self.F = [[1.0, 0.0], [0.0, 1.0]]
 
     def update(self, L, dt):
-        """F <- (I + L dt + (L dt)^2/2) F (kinematics.md 4)."""
+        """F <- (I + L dt + (L dt)^2/2) F (docs/theory/kinematics.md, deformation gradient)."""
         A = [[L[i][j] * dt for j in range(2)] for i in range(2)]
         dF = [[(i == j) + A[i][j] + 0.5 * (A[i][0] * A[0][j] + A[i][1] * A[1][j]) for j in range(2)] for i in range(2)]
         self.F = [[dF[i][0] * self.F[0][j] + dF[i][1] * self.F[1][j] for j in range(2)] for i in range(2)]
@@ -116,7 +116,7 @@ class LargeRotation(FiniteDeformation):
 
 
 class NeoHookean(FiniteDeformation):
-    """sigma = (lambda ln J / J) I + (mu/J)(b - I), plane strain (kinematics.md 6)."""
+    """sigma = (lambda ln J / J) I + (mu/J)(b - I), plane strain (docs/theory/kinematics.md, neo-Hookean solid)."""
 
     def stress(self):
         F, J = self.F, self.area_ratio()

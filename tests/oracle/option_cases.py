@@ -25,12 +25,12 @@ def converging(seed):
 
 
 def sequential_cases():
-    """Pairs done once, one after another; bonded cracks are then pairs like others (CONVENTIONS 13, 14)."""
+    """Pairs done once, one after another; bonded cracks are then pairs like others (conventions 13, 14)."""
     for law in ("stick", "coulomb", "bonded"):
         yield crossing("sequential_literal_%s" % law, law, {"scheme": "literal", "pairs": "sequential"}, velocity=converging(7))
     yield crossing("sequential_consistent_coulomb", "coulomb", {"pairs": "sequential"}, velocity=converging(7), shape="bspline")
     yield crossing("sequential_consistent_bonded", "bonded", {"pairs": "sequential"})
-    # uGIMP leaves fields with 1e-12 of a node's mass: the screen of CONVENTIONS 37 does not part bonded faces (44; contact.md 8)
+    # uGIMP leaves fields with 1e-12 of a node's mass: the screen of conventions 37 does not part bonded faces (conventions 44, 51)
     yield crossing("sequential_light_bonded", "bonded", {"pairs": "sequential"}, shape="gimp")
 
 
@@ -41,7 +41,7 @@ def joint_cases():
 
 
 def meeting_plane_cases():
-    """A crack that meets the mirror x = 3 cells at an angle: there its normal is the plane's tangent (contact.md 6).
+    """A crack that meets the mirror x = 3 cells at an angle: there its normal is the plane's tangent (docs/theory/contact.md, normals).
 
     Wide shape functions see nodes beyond the plane, so the crack goes on there as its mirror image.
     """

@@ -94,7 +94,7 @@ class Symmetry:
         return abs(self.distance(x)) <= self.slack and self.low - self.slack <= x[1 - self.axis] <= self.high + self.slack
 
     def folds(self, p, n):
-        """Does the line from p to a node n beyond the plane meet the part? (CONVENTIONS 29)"""
+        """Does the line from p to a node n beyond the plane meet the part? (conventions 29)"""
         if self.distance(n) >= -self.slack or self.distance(p) < 0:
             return False
         return not any(crosses_segment(p, n, a, b, True, False) for a, b in self.rest)

@@ -1,4 +1,4 @@
-"""Shape functions of kinematics.md 1.1, one direction at a time; the plane is the tensor product.
+"""Shape functions of docs/theory/kinematics.md (shape functions), one direction at a time; the plane is the tensor product.
 
 Each function returns [(node index, S, dS/dx)] for a point at x on the grid x0 + i h, zero values left out.
 """
@@ -8,7 +8,7 @@ import math
 def linear(x, x0, h, half_size):
     """N = 1 - |xi| on the two nodes of the cell floor((x - x0)/h).
 
-    A point exactly on a grid line is taken as just inside one cell (CONVENTIONS 38), so that no force meets a zero mass.
+    A point exactly on a grid line is taken as just inside one cell (conventions 38), so that no force meets a zero mass.
     """
     cell = math.floor((x - x0) / h)
     fraction = min(max((x - x0) / h - cell, 1e-12), 1 - 1e-12)

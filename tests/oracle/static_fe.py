@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Static 4-node finite elements for the double cantilever beam of N03 3.1 (validation rows 3, 4), half model.
+"""Static 4-node finite elements for the double cantilever beam of N03 sec. 3.1 (validation rows 3, 4), half model.
 
 100 x 36 x 1 mm, crack of 50 mm on the mid-plane, E = 0.1 MPa, nu = .33, plane stress; symmetry u_y = 0 on y = 0, x >= 50 mm;
 0.4 mN on the first particle column of the arm, spread over its particles with the shape functions, as the particle model has
-it (CONVENTIONS 40). Full 2 x 2 Gauss quadrature. The mid-plane stress is extrapolated as N03 Fig. 2 does for MPM: stresses at
+it (conventions 40). Full 2 x 2 Gauss quadrature. The mid-plane stress is extrapolated as N03 Fig. 2 does for MPM: stresses at
 the 2 x 2 particle positions of each element, averaged at the nodes with weights m_p S_ip.
 
 static_fe.py               opening of the mouth on a row of grids
@@ -77,7 +77,7 @@ def write(path, h):
     u, elements, (columns, _) = solve(h)
     sigma = mid_plane_stress(u, elements, columns, h)
     with open(path, "w") as stream:
-        stream.write("# Static 4-node finite element solution of the double cantilever beam of N03 3.1 (half model, plane stress),\n"
+        stream.write("# Static 4-node finite element solution of the double cantilever beam of N03 sec. 3.1 (half model, plane stress),\n"
                      "# cells of %g mm; made by tests/oracle/static_fe.py --write tests/oracle/data\n"
                      "# sigma_xx is extrapolated from 2 x 2 particle positions per element by mass-weighted shape functions\n"
                      "x[m],sigma_xx[Pa],u_y[m]\n" % (h * 1e3))

@@ -41,7 +41,7 @@ def same(a, b, tolerance, fields=FIELDS):
 
 @check
 def shape_functions():
-    """Partition of unity, gradients, linear completeness (kinematics.md 1.5); gradient against a central difference."""
+    """Partition of unity, gradients, linear completeness (docs/theory/kinematics.md, checks of shape functions); gradient against a central difference."""
     grid = cramp.Grid({"origin": (-1.0, 0.5), "cell": 0.3})
     rng = random.Random(1)
     for kind in list(SHAPES) + ["cpdi"]:
@@ -207,7 +207,7 @@ def dcb(half, shape, update, points, tip, right):
 
 @check
 def crack_patch_test():
-    """Full model with a crack against half a model with a symmetry plane folded per pair (CONVENTIONS 29; validation row 1)."""
+    """Full model with a crack against half a model with a symmetry plane folded per pair (conventions 29; validation row 1)."""
     for shape in SHAPES:
         for update in ("usl", "musl", "usf", "usavg"):
             for right in (False, True):
@@ -255,7 +255,7 @@ def mirror_symmetry():
 
 @check
 def consistent_contact_gains_no_energy():
-    """contact-consistency.md: E_end/E_0 <= 1.002 with the default scheme and no loads."""
+    """docs/theory/contact.md, energy: E_end/E_0 <= 1.002 with the default scheme and no loads."""
     for case in list(cases.closing_cases()) + list(cases.crossing_cases()):
         if case.get("contact", {}).get("scheme") == "literal" or case.get("stress_update", "usavg") != "usavg":
             continue
@@ -306,7 +306,7 @@ def friction_cone():
 
 @check
 def gap_of_a_turned_closed_crack():
-    """delta_n of contact.md 2.2 is zero for a closed crack after any rigid turn; a real opening is measured."""
+    """delta_n (docs/theory/step.md, detection) is zero for a closed crack after any rigid turn; a real opening is measured."""
     model = cramp.Model(cases.base("turn", cases.block((3, 4), (9, 10), lambda x, y: (0.0, 0.0), shift=(0.05, 0.08)),
                                    cracks=[{"points": cases.path((2, 6.9), (6, 7.1), (10, 6.95)), "law": "frictionless"}]))
     for angle, opening in ((0.0, 0.0), (0.5, 0.0), (math.pi / 2, 0.0), (0.0, 0.1 * H), (0.5, 0.1 * H)):

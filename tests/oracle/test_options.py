@@ -75,7 +75,7 @@ def one_pair_needs_no_sweeps():
 
 
 def bonded_one_after_another_is_not_joined():
-    """CONVENTIONS 13: with two crossing cracks the four pairs, each done once, do not reach the common velocity."""
+    """conventions 13: with two crossing cracks the four pairs, each done once, do not reach the common velocity."""
     case = named(option_cases.sequential_cases, "sequential_literal_bonded")
     assert largest_difference(cramp.run(case).particles, cramp.run(dict(case, cracks=[])).particles, FIELDS["stress"]) > 1e-3
 

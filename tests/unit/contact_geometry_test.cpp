@@ -35,7 +35,7 @@ double mean_position(Shape shape, double d) {
   return sum / weights;
 }
 
-/// docs/theory/contact.md, the table of what two touching half-spaces read.
+/// What two touching half-spaces read (docs/theory/contact.md, detection).
 TEST(ContactGap, InverseOfTheTable) {
   const double raw[3][5] = {{0.667, 0.686, 0.732, 0.797, 0.884}, {0.706, 0.722, 0.768, 0.840, 0.941}, {0.813, 0.826, 0.868, 0.939, 1.034}};
   for (const Shape shape : shapes) {

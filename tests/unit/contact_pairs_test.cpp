@@ -13,7 +13,7 @@ template <class D>
 class ContactPairs : public testing::Test {};
 TYPED_TEST_SUITE(ContactPairs, Dimensions);
 
-/// The fields of a node with two crossing cracks: {} , {0}, {1}, {0, 1} as groups 0..3; pairs of one crack share its normal (CONVENTIONS 25).
+/// The fields of a node with two crossing cracks: {}, {0}, {1}, {0, 1} as groups 0..3. Pairs of one crack share a normal (conventions 25).
 /// With three cracks of which each cuts one more field off: a chain.
 template <int Dim>
 Node<Dim> random_node(Random& random, const ContactLawSpec& law, int pairs) {
@@ -151,7 +151,7 @@ TYPED_TEST(ContactPairs, ACommonVelocityDoesNotMatter) {
   }
 }
 
-/// CONVENTIONS 13: where sweeps over the pairs settle, that is the solution; ring-like contacts have others, with other shares.
+/// conventions 13: where sweeps over the pairs settle, that is the solution; ring-like contacts have others, with other shares.
 TYPED_TEST(ContactPairs, ASolutionOfPlainSweepsIsKept) {
   constexpr int Dim = TypeParam::value;
   Random random(12);
@@ -219,7 +219,7 @@ TYPED_TEST(ContactPairs, LightFieldBetweenHeavyOnes) {
   }
 }
 
-/// N13's way, one pair after another once, is there on request and is not the joint one (CONVENTIONS 13).
+/// N13's way, one pair after another once, is there on request and is not the joint one (conventions 13).
 TYPED_TEST(ContactPairs, SequentialPairsAreDoneOnce) {
   constexpr int Dim = TypeParam::value;
   Random random(9);

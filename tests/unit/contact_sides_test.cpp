@@ -95,7 +95,7 @@ TYPED_TEST(ContactSides, RigidGroupsStay) {
   }
 }
 
-/// Sides of several groups meet with their common velocity and share by mass (CONVENTIONS 34); the joint solution holds every pair.
+/// Sides of several groups meet with their common velocity and share by mass (conventions 34); the joint solution holds every pair.
 TYPED_TEST(ContactSides, SidesOfACrackShareByMass) {
   constexpr int Dim = TypeParam::value;
   Random random(34);

@@ -1,5 +1,5 @@
-/// Contact of one pair at a node (contact/node_solve.hpp): the impulses of contact.md section 3, the papers' detection, and the consistent
-/// scheme of contact-consistency.md written once more.
+/// Contact of one pair at a node (contact/node_solve.hpp): the impulses (docs/theory/contact.md, impulses), the papers' detection, and
+/// the consistent scheme (docs/theory/contact.md, the scheme) written once more.
 
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ TYPED_TEST(ContactSolve, NoNormalMotionNoImpulse) {
       node.pairs.resize(1);
       node.laws = {law};
       node.groups[0].m = 1, node.groups[1].m = 2;
-      node.groups[0].p[0] = 1, node.groups[1].p[0] = -4;  // sliding along x alone: CONVENTIONS 7
+      node.groups[0].p[0] = 1, node.groups[1].p[0] = -4;  // sliding along x alone: conventions 7
       node.pairs[0].a = only(0), node.pairs[0].b = only(1);
       node.pairs[0].n[1] = 1;
       node.pairs[0].gap = -h;
@@ -105,7 +105,7 @@ TYPED_TEST(ContactSolve, NoNormalMotionNoImpulse) {
   }
 }
 
-/// N03 section 2.2 as printed, with CONVENTIONS 5 and 6.
+/// N03 section 2.2 as printed, with conventions 5 and 6.
 TYPED_TEST(ContactSolve, VolumeRule) {
   constexpr int Dim = TypeParam::value;
   Random random(3);
@@ -151,7 +151,7 @@ TYPED_TEST(ContactSolve, VolumeRule) {
   EXPECT_GT(held_back, 300) << "normal sticking of N03 was never tried";
 }
 
-/// By displacement: approach, and an overlap at the end of the step (contact.md 2.2).
+/// By displacement: approach, and an overlap at the end of the step (docs/theory/step.md, detection).
 TYPED_TEST(ContactSolve, LiteralRuleByDisplacement) {
   constexpr int Dim = TypeParam::value;
   Random random(4);
@@ -172,7 +172,7 @@ TYPED_TEST(ContactSolve, LiteralRuleByDisplacement) {
   EXPECT_GT(closing, 300);
 }
 
-/// One contact over the three tasks of a step, in the words of contact-consistency.md.
+/// One contact over the three tasks of a step, in the words of docs/theory/contact.md, the scheme.
 template <int Dim>
 struct PlainContact {
   enum Law { frictionless, stick, coulomb } law;

@@ -1,4 +1,4 @@
-// Crack crossing against exact arithmetic (physics/fracture.md section 1.3, CONVENTIONS 9, 15-22).
+// Crack crossing against exact arithmetic (docs/theory/crossing.md; conventions 9, 15-22).
 
 #include <gtest/gtest.h>
 
@@ -407,7 +407,7 @@ TEST(Crossing, ParticlesAroundANodeOnTheCrackAgreeOnItsSide) {
 }
 
 TEST(Crossing, CrackAlongAGridLineSplitsEveryNodeButItsTips) {
-  // The natural input that vanishes under the paper's rule (CONVENTIONS 16).
+  // The natural input that vanishes under the paper's rule (conventions 16).
   Points v;
   for (int i = 0; i <= 4; ++i) v.push_back({double(i), 1.});
   const Polyline crack(v);

@@ -1,4 +1,4 @@
-// Binned crack segments against all of them (DESIGN section 3).
+// Binned crack segments against all of them (docs/theory/crossing.md, which segments are tested).
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Exact signs against rational numbers (physics/fracture.md section 1.3).
+// Exact signs against rational numbers (docs/theory/crossing.md, orientation).
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Shape functions as the step sees them, through the stencil: what kinematics.md 1.5 asks for, and the formulas of 1.1 once more.
+/// Shape functions as the step sees them, through the stencil: what docs/theory/kinematics.md asks for, and its formulas once more.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace crampon::test {
 namespace {
 
-/// kinematics.md 1.1 as printed: value and slope at xi = (x_p - x_i)/h; l is the half size of the particle in cells.
+/// docs/theory/kinematics.md (shape functions) as printed: value and slope at xi = (x_p - x_i)/h; l: half size of the particle in cells.
 struct Profile {
   double value = 0, slope = 0;
 };
@@ -254,7 +254,7 @@ TYPED_TEST(ShapeFunctions, HaveTheGradientsOfTheirValues) {
   }
 }
 
-/// On a grid line no node may have a gradient without a weight, or a force would fall on a node without mass (CONVENTIONS 38).
+/// On a grid line no node may have a gradient without a weight, or a force would fall on a node without mass (conventions 38).
 TYPED_TEST(ShapeFunctions, OnGridLinesLeaveNoForceWithoutMass) {
   constexpr int Dim = TypeParam::dim;
   for (int place = 0; place < places; ++place) {

@@ -1,4 +1,4 @@
-// Folding at part of a plane against the twin model's crack on the rest of it (CONVENTIONS 29).
+// Folding at part of a plane against the twin model's crack on the rest of it (conventions 29).
 
 #include <gtest/gtest.h>
 

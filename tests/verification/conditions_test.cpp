@@ -47,7 +47,8 @@ void expect_equal_runs(const std::string& a, const std::string& b, double relati
 }
 
 TEST(Conditions, OneMayHandOverToTheNext) {
-  // 20 steps of 0.3 us each; contact-consistency.md: V_old is p_int/m only in the first step in which the *component* is prescribed.
+  // 20 steps of 0.3 us each; V_old is p_int/m only in the first step in which the *component* is prescribed (docs/theory/step.md, boundary
+  // values).
   const std::string ramp = "{ expression = \"2e5*t\", unit = \"m/s\" }";
   for (const char* force : {"incremental", "n13", "zero"}) {
     const std::string method = std::string("[method]\nfixed_force = \"") + force + "\"\n";
@@ -101,7 +102,7 @@ TEST(Conditions, ContradictionsAreRefused) {
       << "a part that differs from the rest";
 }
 
-/// Mirrored mass carries mirrored force (CONVENTIONS 29): gravity as a body force equals gravity as a force on every particle.
+/// Mirrored mass carries mirrored force (conventions 29): gravity as a body force equals gravity as a force on every particle.
 TEST(Conditions, BodyForceOnASymmetryPlane) {
   // Particles of 1/4 mm2 and 1 m: 2.5e-4 kg.
   const std::string on_each = "[[load]]\nname = \"w\"\nkind = \"force_each\"\nvalue = [0, \"-0.25 N\"]\n";

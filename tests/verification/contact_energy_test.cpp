@@ -118,7 +118,7 @@ class ContactEnergy : public testing::TestWithParam<ImpactCase> {};
 
 TEST_P(ContactEnergy, NeitherGrowsNorIsLost) {
   const Outcome o = collide(GetParam(), "consistent"), literal = collide(GetParam(), "literal");
-  // contact-consistency.md, "Tests that follow": above, USAVG's own oscillation; below, the inelastic onset of contact in cells of this
+  // docs/theory/contact.md, energy: above, USAVG's own oscillation; below, the inelastic onset of contact in cells of this
   // size, and what friction takes (measured: at most .7 % without friction and 4.7 % with it).
   // MUSL's stress is half a step off, and energy with it: 1 to 2 % to and fro here.
   const double swing = std::string(GetParam().update) == "musl" ? 0.025 : 0;
@@ -130,7 +130,8 @@ TEST_P(ContactEnergy, NeitherGrowsNorIsLost) {
   EXPECT_GE(o.deepest, -0.05 * h);
   // Something has happened: faces that were closed at the start have opened.
   EXPECT_GT(o.widest, 0.1 * h);
-  // What the history calls lost in contact is what the energy lacks. The balance of contact-consistency.md leaves small terms: measured .13 %.
+  // What the history calls lost in contact is what the energy lacks. The balance (docs/theory/contact.md, energy) leaves small terms:
+  // measured .13 %.
   EXPECT_NEAR(o.closure, 0, 0.005 + swing);
   EXPECT_NEAR(o.contact_loss, 1 - o.end, 0.005 + swing);
   RecordProperty("closure", fmt::format("{:.2e}", o.closure));

@@ -270,7 +270,7 @@ shape = {{ kind = "disk", centre = [0.2, 0.2], radius = 0.1 }}
   for (std::size_t p = 0; p < frame.positions.size() / 3; ++p)
     mass += field(frame, "body").values[p] == 0 ? field(frame, "mass").values[p] : 0;
   const double weight = 10 * mass;
-  // contact-consistency.md: 0.3 % of the weight for a disk at rest.
+  // 0.3 % of the weight for a disk at rest.
   EXPECT_NEAR(value(*simulation, "reaction_x.floor"), c.floor[0] * weight, 0.003 * weight);
   EXPECT_NEAR(value(*simulation, "reaction_y.floor"), c.floor[1] * weight, 0.003 * weight);
   RecordProperty("reaction_x_over_weight", fmt::format("{:.5f}", value(*simulation, "reaction_x.floor") / weight));

@@ -247,7 +247,7 @@ TEST(DiskInShapeFull, RestsOnIt) {
         time += dt;
       });
       const double weight = g * std::numbers::pi * 64;
-      EXPECT_NEAR(y / time, weight, 0.003 * weight) << shape << ", " << shape_functions;  // contact-consistency.md
+      EXPECT_NEAR(y / time, weight, 0.003 * weight) << shape << ", " << shape_functions;
       EXPECT_NEAR(x / time, 0, 0.01 * weight) << shape << ", " << shape_functions;
       worst = std::fmax(worst, std::fabs(y / time / weight - 1));
       aside = std::fmax(aside, std::fabs(x / time / weight));

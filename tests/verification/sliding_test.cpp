@@ -1,4 +1,4 @@
-/// Bodies that slide, roll or stick on floors and inclines, with Coulomb friction (validation rows 35, 36; contact-consistency.md).
+/// Bodies that slide, roll or stick on floors and inclines, with Coulomb friction (validation rows 35, 36; contact.md, checked).
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

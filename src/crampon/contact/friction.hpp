@@ -1,5 +1,5 @@
 #pragma once
-/// How much a contact law resists sliding (docs/theory/contact.md, laws).
+/// How much a contact law resists sliding (docs/theory/contact.md, which law).
 
 #include "crampon/contact/law.hpp"
 

@@ -16,7 +16,7 @@ struct NoContact {
   static const Declaration<NoContact>& declaration();
 };
 
-/// Joined for good: no detection, equal to a body without the boundary (CONVENTIONS 44).
+/// Joined for good: no detection, equal to a body without the boundary (conventions 44).
 struct BondedContact {
   static const Declaration<BondedContact>& declaration();
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// What a contact remembers from one step to the next: open, slip or stick (contact-consistency.md).
+/// What a contact remembers from one step to the next: open, slip or stick (docs/theory/contact.md, the scheme).
 
 #include <algorithm>
 #include <compare>

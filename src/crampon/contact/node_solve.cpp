@@ -47,10 +47,10 @@ class NodeSolve {
   }
 
  private:
-  static constexpr int most_sweeps = 200;  // CONVENTIONS 13
+  static constexpr int most_sweeps = 200;  // conventions 13
 
   /// N13 Eqs. 7-9: every material of one crack field against all others there, from the same momenta; what is then wanting of the total
-  /// is shared out by mass (CONVENTIONS 35).
+  /// is shared out by mass (conventions 35).
   void meet_the_others() {
     const GroupSet all = pairs_[first_].a | pairs_[first_].b;
     const int begin = first_;

@@ -17,7 +17,7 @@ namespace crampon {
 /// One velocity field of a node.
 struct ContactField {
   int layer = 0;  ///< of the node's block
-  int group = 0;  ///< among the node's groups: fields joined by bonded cracks or materials share one velocity (CONVENTIONS 13, 14)
+  int group = 0;  ///< among the node's groups: fields joined by bonded cracks or materials share one velocity (conventions 13, 14)
 };
 
 /// Fields that share a velocity.
@@ -159,7 +159,7 @@ double reduced_mass(const PairSide<Dim>& a, const PairSide<Dim>& b) {
 /// Solves all pairs of one node: sets dp of every group (sum zero, kg m/s) and J, state and w_end of every pair. One pair, or pairs in
 /// sequence, are done in one go; several together by sweeps over accumulated impulses until nothing changes by more than 1e-14 of the
 /// momenta about (docs/decisions/0006-joint-contact.md). Pairs with N13's virtual material are done first and once, all from the same
-/// momenta (CONVENTIONS 35). Returns false when convergence was not reached. CONVENTIONS 13.
+/// momenta (conventions 35). Returns false when convergence was not reached. conventions 13.
 template <int Dim>
 bool solve_contact(const ContactRules& rules, ContactGroup<Dim>* groups, int group_count, ContactPair<Dim>* pairs, int pair_count);
 

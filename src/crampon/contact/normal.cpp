@@ -13,7 +13,7 @@ namespace {
 /// normals beside a corner closer to the face, larger ones smooth those along curved faces.
 constexpr double lambda = 1e-2;
 
-/// Rounding does not choose between two that are as large: the first is taken (CONVENTIONS 32).
+/// Rounding does not choose between two that are as large: the first is taken (conventions 32).
 constexpr double tie = 1 - 1e-10;
 
 template <int Dim>

@@ -14,7 +14,7 @@ Sliding sliding_of(const ContactRules& rules, const ContactPair<Dim>& pair, doub
   return {0, 0, m, rules.dt, pair.area, pair.history};
 }
 
-/// No detection (CONVENTIONS 44). Such pairs are there only when pairs are done one after another or one is rigid; else bonded fields are
+/// No detection (conventions 44). Such pairs are there only when pairs are done one after another or one is rigid; else bonded fields are
 /// one group.
 template <int Dim>
 Response<Dim> bonded_response(const ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {

@@ -15,16 +15,17 @@ enum class RotationTransfer { carried, n03 };
 /// have them).
 enum class CrackShapeFunctions { linear, same };
 
-/// N13 contacts first, N03 imposes boundary conditions first (CONVENTIONS 26).
+/// N13 contacts first, N03 imposes boundary conditions first (conventions 26).
 enum class BoundaryOrder { contact_first, boundary_first };
-/// Force on fixed components: incremental (contact-consistency.md), N13 Eq. 1, or zero (N03).
+/// Force on fixed components: incremental (docs/theory/step.md, boundary values), N13 Eq. 1, or zero (N03).
 enum class FixedForce { incremental, n13, zero };
 enum class LeavingParticle { error, remove };
 
 /// Which bodies have a velocity field of their own (N13 sec. 1.2).
 enum class FieldsOf { all, materials, bodies };
 
-/// contact-consistency.md, or contact detected anew in Tasks 2, 4 and 6 as in the papers.
+/// One state for each pair in contact, carried through the step (docs/theory/contact.md, the scheme), or contact detected anew in Tasks 2,
+/// 4 and 6 as in the papers.
 enum class ContactScheme { consistent, literal };
 /// How far apart two faces are: by the means of their particles' positions or by the particles themselves, by how far they have come since the
 /// start, or by N03's relative volume.

@@ -1,5 +1,5 @@
 #pragma once
-/// Orientation of three points in the plane, exact in sign (physics/fracture.md section 1.3).
+/// Orientation of three points in the plane, exact in sign (docs/theory/crossing.md, orientation).
 ///
 /// Exact for finite coordinates that are zero or of magnitude 1e-140 to 1e140: then no product of coordinate differences overflows,
 /// and all are multiples of the smallest positive double, so nothing is lost to underflow. Needs contraction off (the build's

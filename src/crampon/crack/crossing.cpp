@@ -13,7 +13,7 @@ bool has_end(TipRule tips) { return (static_cast<int>(tips) & static_cast<int>(T
 bool node_above(const Vec<2>& a, const Vec<2>& b, const Vec<2>& node) { return orient_sign_perturbed(a, b, node) >= 0; }
 bool particle_above(const Vec<2>& a, const Vec<2>& b, const Vec<2>& particle) { return orient_sign(a, b, particle) >= 0; }
 
-/// Boxes of the line and the segment without a common point (CONVENTIONS 22: touching is common).
+/// Boxes of the line and the segment without a common point (conventions 22: touching is common).
 bool apart(double p, double n, double a, double b) {
   const double low = p < n ? p : n, high = p < n ? n : p;
   return (a < low && b < low) || (a > high && b > high);

@@ -1,5 +1,5 @@
 #pragma once
-/// Does the line from a particle to a node cross a crack? (N03 Task 1; physics/fracture.md section 1.3; CONVENTIONS 15-22)
+/// Does the line from a particle to a node cross a crack? (N03 Task 1; docs/theory/crossing.md; conventions 15-22)
 ///
 /// The node is thought moved to node + (eps, eps^2), so that it never lies on a crack and every particle sees it on the same side.
 /// A particle on the crack counts as above. A line that touches a tip does not cross.
@@ -46,7 +46,7 @@ struct Crossing {
   Vec<2> original_sum{};     ///< sum of what these normals were at the start
 
   bool crosses() const { return ((above + below) & 1) != 0; }
-  /// Side of the particle when the line crosses: +1 above, -1 below (CONVENTIONS 17).
+  /// Side of the particle when the line crosses: +1 above, -1 below (conventions 17).
   int side() const { return (above > below) - (above < below); }
 };
 

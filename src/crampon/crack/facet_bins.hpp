@@ -1,5 +1,5 @@
 #pragma once
-/// Which crack segments can the particles of a cell see? (DESIGN section 3)
+/// Which crack segments can the particles of a cell see? (docs/theory/crossing.md, which segments are tested)
 
 #include <array>
 #include <cstdint>

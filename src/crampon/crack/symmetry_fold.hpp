@@ -1,5 +1,5 @@
 #pragma once
-/// Symmetry planes, possibly only part of a plane, folded per pair of particle and node (CONVENTIONS 29).
+/// Symmetry planes, possibly only part of a plane, folded per pair of particle and node (conventions 29).
 ///
 /// A model of one half with the plane x >= a gives what the whole model gives with a crack on x <= a along that plane: a pair is
 /// folded exactly when its line does not cross that crack, by the same predicates and tie rule.
@@ -15,7 +15,7 @@ namespace crampon {
 /// The plane x[axis] = at, restricted to from[k] <= x[k] <= to[k] for the other axes k.
 struct SymmetryPlane {
   int axis = 0;
-  double at = 0;  ///< m; the very coordinate of the grid's nodes there (CONVENTIONS 21), since nodes are compared with it exactly
+  double at = 0;  ///< m; the very coordinate of the grid's nodes there (conventions 21), since nodes are compared with it exactly
   int side = 1;   ///< +1 when the body lies at larger coordinates, -1 at smaller
   /// m; not finite: unbounded. The entries of `axis` are ignored.
   std::array<double, 3> from{-infinity, -infinity, -infinity}, to{infinity, infinity, infinity};

@@ -19,7 +19,7 @@ inline void initialise_deformation(Pack* F) {
   }
 }
 
-/// F <- (I + L dt + (L dt)^2/2) F (kinematics.md 4). In 2D Fzz is left to the law.
+/// F <- (I + L dt + (L dt)^2/2) F (docs/theory/kinematics.md, deformation gradient). In 2D Fzz is left to the law.
 template <int Dim>
 inline void advance_deformation(const Pack* L, double dt, Pack* F) {
   constexpr int n = Dim;
@@ -90,8 +90,9 @@ inline Pack largest_row_sum(const Pack* b) {
   }
 }
 
-/// Rotation R of F = R U, row by row. 2D in closed form (kinematics.md 5); 3D by Higham's iteration R <- (R + R^-T)/2 from F, a
-/// fixed number of times: after the first, the error squares each time, so that eight reach round-off for stretches up to 10.
+/// Rotation R of F = R U, row by row (docs/theory/kinematics.md, elasticity with large rotation). 2D in closed form; 3D by Higham's
+/// iteration R <- (R + R^-T)/2 from F, a fixed number of times: after the first, the error squares each time, so that eight reach
+/// round-off for stretches up to 10.
 inline void rotation_of(const Pack* F, Pack* R, int dimension) {
   if (dimension == 2) {
     const Pack c = F[0] + F[3], s = F[2] - F[1], r = 1. / lane_sqrt(c * c + s * s);

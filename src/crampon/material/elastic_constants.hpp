@@ -10,9 +10,9 @@ struct ElasticConstants {
   double lambda = 0, mu = 0;
   ElasticConstants() = default;
   ElasticConstants(double E, double nu) : lambda(E * nu / ((1 + nu) * (1 - 2 * nu))), mu(E / (2 * (1 + nu))) {}
-  /// lambda of the reduced law in plane stress (kinematics.md 5).
+  /// lambda of the reduced law in plane stress (docs/theory/kinematics.md, elasticity with large rotation).
   double plane_lambda(StressState s) const { return s == StressState::plane_stress ? 2 * lambda * mu / (lambda + 2 * mu) : lambda; }
-  /// Fastest wave of small amplitude, m/s (kinematics.md 12): sqrt((lambda + 2 mu)/rho), in plane stress sqrt(E/((1 - nu^2) rho)).
+  /// Fastest wave of small amplitude, m/s (docs/theory/kinematics.md, waves and the time step).
   double wave_speed(StressState s, double density) const { return std::sqrt((plane_lambda(s) + 2 * mu) / density); }
 };
 

@@ -5,7 +5,7 @@
 namespace crampon {
 
 /// Small-strain isotropic elasticity exactly as N03: Hooke's law on the accumulated strain of Eq. 35, volume by Eq. 9, and forces
-/// from the specific stress, f = -m (sigma/rho0) . G (Eq. 28): the particle's initial volume weighs the stress (CONVENTIONS 43).
+/// from the specific stress, f = -m (sigma/rho0) . G (Eq. 28): the particle's initial volume weighs the stress (conventions 43).
 struct ElasticSmallStrain {
   double E = 0;        ///< Young's modulus, Pa
   double nu = 0;       ///< Poisson's ratio

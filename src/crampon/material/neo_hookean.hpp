@@ -5,7 +5,7 @@
 
 namespace crampon {
 
-/// Coupled neo-Hookean solid: tau = lambda ln J I + mu (b - I), b = F F^T (kinematics.md 6);
+/// Coupled neo-Hookean solid: tau = lambda ln J I + mu (b - I), b = F F^T (docs/theory/kinematics.md, neo-Hookean solid);
 /// W = mu/2 (tr b - 3 - 2 ln J) + lambda/2 (ln J)^2 per initial volume.
 struct NeoHookean {
   double E = 0;        ///< Young's modulus at small strain, Pa

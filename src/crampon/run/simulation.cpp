@@ -209,7 +209,8 @@ class Engine final : public Simulation {
                        time_.step ? "correct end or step" : "correct end, the material or the cells"}});
   }
 
-  /// Smallest cell over fastest wave (kinematics.md 12); laws whose waves change with strain are asked for the present speed.
+  /// Smallest cell over fastest wave (docs/theory/kinematics.md, waves and the time step). Laws whose waves change with strain are asked
+  /// for the present speed.
   double stable_time_step() {
     double fastest = 0;
     watches_wave_speed_ = false;

@@ -3,7 +3,7 @@
 
 namespace crampon {
 
-/// Quadratic B-spline, kinematics.md 1.1 (Steffen et al. 2008).
+/// Quadratic B-spline, docs/theory/kinematics.md, shape functions (Steffen et al. 2008).
 struct BsplineShape {
   static constexpr int width = 3;
   static constexpr double bin_shift = 0.5;  ///< particles are binned by nearest node

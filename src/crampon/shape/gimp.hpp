@@ -3,7 +3,7 @@
 
 namespace crampon {
 
-/// uGIMP: linear functions averaged over an undeformed particle, kinematics.md 1.1 (Bardenhagen & Kober 2004).
+/// uGIMP: linear functions averaged over an undeformed particle (docs/theory/kinematics.md, shape functions; Bardenhagen & Kober 2004).
 struct GimpShape {
   static constexpr int width = 3;
   static constexpr double bin_shift = 0.5;    ///< particles are binned by nearest node

@@ -3,7 +3,7 @@
 
 namespace crampon {
 
-/// Linear (4- and 8-node) shape functions, kinematics.md 1.1; N03 Eq. 24.
+/// Linear (4- and 8-node) shape functions (docs/theory/kinematics.md, shape functions; N03 Eq. 24).
 struct LinearShape {
   static constexpr int width = 2;         ///< nodes per axis
   static constexpr double bin_shift = 0;  ///< particles are binned by cell
@@ -14,7 +14,7 @@ struct LinearShape {
   /// f: distance from the base node in cells, in [0, 1]. N and dN/dx (1/m) at the base node and the next.
   static void weights(Pack f, double /*half_size*/, double inverse_cell, Pack* N, Pack* dN) {
     // A particle exactly on a node's line has N = 0 but dN != 0 at the far node: a force on a node without mass, and momentum
-    // would be lost. It is taken just inside its cell instead (CONVENTIONS 38).
+    // would be lost. It is taken just inside its cell instead (conventions 38).
     f = lane_max(splat(1e-12), lane_min(splat(1 - 1e-12), f));
     N[0] = 1. - f;
     N[1] = f;

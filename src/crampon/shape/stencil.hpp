@@ -12,7 +12,7 @@
 
 namespace crampon {
 
-/// A tile: the nodes a block's particles can reach, with one cell of drift on every side (DESIGN section 2).
+/// A tile: the nodes a block's particles can reach, with one cell of drift on every side (docs/theory/space.md, tiles).
 template <int Dim, class Shape>
 struct Tile {
   static constexpr int drift = 1;

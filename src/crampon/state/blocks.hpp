@@ -1,5 +1,5 @@
 #pragma once
-/// Blocks that hold particles, and their neighbours: where nodes and tiles exist (DESIGN section 2).
+/// Blocks that hold particles, and their neighbours: where nodes and tiles exist (docs/theory/space.md).
 
 #include <array>
 #include <cstdint>

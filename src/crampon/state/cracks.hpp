@@ -1,5 +1,5 @@
 #pragma once
-/// Cracks: vertices without mass, joined by facets (N03 section 2; DESIGN section 3).
+/// Cracks: vertices without mass, joined by facets (N03 section 2; docs/theory/space.md, cracks in memory).
 
 #include <array>
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Carrier {
 /// Per vertex. The weights of a point add up to 1; a point without carriers goes with the plane.
 using Carriers = std::vector<std::vector<Carrier>>;
 
-/// One crack. In 2D the vertices of facet k are k and k + 1 of a directed polyline; "above" is left of it (CONVENTIONS, head).
+/// One crack. In 2D the vertices of facet k are k and k + 1 of a directed polyline; "above" is left of it (conventions, words and signs).
 template <int Dim>
 struct Crack {
   std::string name;

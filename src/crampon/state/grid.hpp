@@ -1,5 +1,5 @@
 #pragma once
-/// The background grid and its division into blocks of 8 cells a side (DESIGN section 2).
+/// The background grid and its division into blocks of 8 cells a side (docs/theory/space.md, blocks).
 
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ using IndexVector = std::array<int, Dim>;
 
 constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
 
-/// Cells along a side of a block; docs/architecture.md shows why 8.
+/// Cells along a side of a block; docs/theory/space.md (blocks) says why 8.
 inline constexpr int block_side = 8;
 template <int Dim>
 inline constexpr int block_nodes = power(block_side, Dim);

@@ -1,6 +1,7 @@
 #pragma once
 /// Velocity fields. A layer is the set of particle-node pairs of one material field whose connecting lines cross the same cracks
-/// (DESIGN section 2): {} is N13's field [0], {a} its [1], {b} its [2], {a, b} its [3]; three and more cracks at a node are no special case.
+/// (docs/theory/space.md, layers): {} is N13's field [0], {a} its [1], {b} its [2], {a, b} its [3]. Three and more cracks at a node are no
+/// special case.
 
 #include <algorithm>
 #include <array>
@@ -79,7 +80,7 @@ struct Layer {
 struct PairTarget {
   std::uint16_t node = 0;     ///< tile index; the mirror node when the pair is folded
   std::uint8_t layer = 0;     ///< of the block
-  std::uint8_t flip = 0;      ///< bit k: component k changes sign in the exchange (CONVENTIONS 29)
+  std::uint8_t flip = 0;      ///< bit k: component k changes sign in the exchange (conventions 29)
   std::uint8_t mirrored = 0;  ///< bit k: the mirror node is on the other side of a plane across axis k
   std::uint8_t held = 0;      ///< 1: folded at a face of prescribed velocity
   std::uint16_t offset = 0;   ///< index into the block's offsets: what is read at the mirror node, its signs changed, plus this

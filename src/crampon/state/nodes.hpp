@@ -59,7 +59,7 @@ struct ContactSums {
   }
 };
 
-/// Sums over the pairs that cross one crack, per node: {n, side, N, count}; n present, N original unit normals (CONVENTIONS 9, 17).
+/// Sums over the pairs that cross one crack, per node: {n, side, N, count}; n present, N original unit normals (conventions 9, 17).
 struct CrossingSums {
   Pack r[2];
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Particles, laid out by use (shared measurements in docs/decisions/0003-data-layout.md):
+/// Particles, laid out by use (docs/decisions/0003-data-layout.md says why):
 /// what nodes exchange in records of 32 bytes, what only lanes over particles touch in packs of four.
 
 #include <cstdint>

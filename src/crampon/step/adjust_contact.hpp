@@ -1,5 +1,5 @@
 #pragma once
-/// Contact between velocity fields at the own nodes of a block (N03 section 2.2, N13 section 3, contact-consistency.md).
+/// Contact between velocity fields at the own nodes of a block (N03 section 2.2, N13 section 3; docs/theory/contact.md, the scheme).
 
 #include "crampon/step/model.hpp"
 #include "crampon/step/state.hpp"

@@ -8,8 +8,9 @@ namespace crampon {
 /// Will someone look at the state after the step? Then what particles move with is kept (Particles::moved_with).
 enum class Watched { no, yes };
 
-/// One time step of dt (s): Tasks 0 to 8 of N13 (DESIGN section 1). Throws RunError with step, time, particle and advice when numbers
-/// go bad, a particle leaves the grid (unless such particles are to be removed), moves more than a cell or turns inside out.
+/// One time step of dt (s): Tasks 0 to 8 of N13 (docs/architecture.md, the time step). Throws RunError with step, time, particle and
+/// advice when numbers go bad, a particle leaves the grid (unless such particles are to be removed), moves more than a cell or turns
+/// inside out.
 template <int Dim, class Shape>
 void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watched);
 

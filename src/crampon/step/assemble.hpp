@@ -1,6 +1,6 @@
 #pragma once
 /// Tiles to nodes and back. A node's value is the sum of the tiles that cover it, always in the same block order, so that results
-/// do not depend on the number of threads (DESIGN section 2).
+/// do not depend on the number of threads (docs/theory/space.md, assembly).
 
 #include <algorithm>
 #include <type_traits>

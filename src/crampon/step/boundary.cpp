@@ -184,7 +184,7 @@ void impose_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_
     Pack& p = state.nodes.momentum[i];
     scratch.p_int[kept] = p[c.axis];
     const bool symmetry = model.conditions[c.condition].symmetry;
-    // A component prescribed for the first time starts from what the body does (contact-consistency.md).
+    // A component prescribed for the first time starts from what the body does (docs/theory/step.md, boundary values).
     if (!symmetry && c.fresh && model.fixed_force == FixedForce::incremental) return;
     p[c.axis] = symmetry ? 0. : p[Dim] * c.v_old;
   });

@@ -1,6 +1,6 @@
 #pragma once
-/// Nodal velocity conditions, consistent in momentum and force (N13 sec. 2.3-2.7; contact-consistency.md, last section;
-/// CONVENTIONS 26-31), and symmetry planes.
+/// Nodal velocity conditions, consistent in momentum and force (N13 sec. 2.3-2.7; docs/theory/step.md, boundary values;
+/// conventions 26-31), and symmetry planes.
 ///
 /// A value belongs to the time of the momentum it is given to: the start of the step in Task 2, its end in Tasks 3 to 6.
 
@@ -49,7 +49,7 @@ void impose_symmetry(State<Dim>& state, const Model<Dim>& model, std::size_t blo
 template <int Dim>
 void impose_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t block);
 
-/// Task 3: the force on fixed components; books reactions. Restores p_int where the rule asks for it (CONVENTIONS 27).
+/// Task 3: the force on fixed components; books reactions. Restores p_int where the rule asks for it (conventions 27).
 template <int Dim>
 void impose_forces(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt);
 

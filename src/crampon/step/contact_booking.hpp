@@ -35,7 +35,7 @@ bool fixes_before_contact(const Model<Dim>& model, ContactTask task) {
   return task == ContactTask::four || task == ContactTask::term || model.boundary_order == BoundaryOrder::boundary_first;
 }
 
-/// The only two ways in which contact changes a node (STYLE, invariants): Tasks 2 and 6 change momentum alone, and Task 4 momentum and force
+/// The only two ways in which contact changes a node (conventions 12): Tasks 2 and 6 change momentum alone, and Task 4 momentum and force
 /// together (N13 sec. 2.5).
 template <int Dim>
 void change_node(Nodes<Dim>& nodes, std::size_t i, const Vec<Dim>& dp, ContactTask task, double dt) {

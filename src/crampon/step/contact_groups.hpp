@@ -1,5 +1,5 @@
 #pragma once
-/// Which velocity fields of a node move as one (CONVENTIONS 13, 14).
+/// Which velocity fields of a node move as one (conventions 13, 14).
 
 #include <vector>
 
@@ -8,13 +8,13 @@
 
 namespace crampon {
 
-/// Are fields on both sides one group? One after another, bonded pairs are pairs like others (N13, CONVENTIONS 14).
+/// Are fields on both sides one group? One after another, bonded pairs are pairs like others (N13, conventions 14).
 template <int Dim>
 bool joins(const Model<Dim>& model, const ContactLawSpec& law) {
   return std::holds_alternative<BondedContact>(law) && model.contact.pairs == ContactPairs::joint;
 }
 
-/// A signature without the cracks that join: fields of one material that agree in it move as one (CONVENTIONS 13, 14).
+/// A signature without the cracks that join: fields of one material that agree in it move as one (conventions 13, 14).
 template <int Dim>
 Signature without_joined(const Signature& s, const Model<Dim>& model) {
   Signature out;

@@ -138,7 +138,7 @@ std::pair<Face<Dim>, Face<Dim>> FaceToFace<Dim>::before(const MeetingPlace<Dim>&
   return parts;
 }
 
-/// What the law asks of the past: on the side of the lower field, above a crack (docs/theory/contact.md, laws).
+/// What the law asks of the past: on the side of the lower field, above a crack (docs/theory/contact.md, which law).
 template <int Dim>
 void FaceToFace<Dim>::look_back(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const {
   if (needs_history(*pair.law)) pair.history = a.history / a.m;
@@ -306,7 +306,7 @@ template <int Dim>
 Vec<Dim> FaceToFace<Dim>::found_normal(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b) {
   GradientNormal gradient = GradientNormal::largest_gradient;
   const VolumeGradient<Dim> of_a{a.g, a.volume, a.rigid}, of_b{b.g, b.volume, b.rigid};
-  // A rigid body shows its own surface better than any regression over both, as in gradient_normal (CONVENTIONS 33).
+  // A rigid body shows its own surface better than any regression over both, as in gradient_normal (conventions 33).
   if (b.rigid && norm(b.g) >= norm(a.g) / model_.contact.rigid_bias) return normalized(-b.g);
   switch (model_.contact.normal) {
     case ContactNormal::logistic_regression:

@@ -207,7 +207,7 @@ class NodeFinder {
     pair_faces(node, faces_[a], rest, most);
   }
 
-  /// Bodies that no crack parts, with all others whatever cracks part those; rigid ones last (CONVENTIONS 36).
+  /// Bodies that no crack parts, with all others whatever cracks part those; rigid ones last (conventions 36).
   void pair_whole(const ContactNode<Dim>& node) {
     for (const bool rigid : {false, true}) {
       for (std::size_t w = 0; w < faces_.size(); ++w) {
@@ -227,7 +227,7 @@ class NodeFinder {
     pair.law = &model_.law_between(a.field, other.field);
     if (std::holds_alternative<NoContact>(*pair.law)) return;
     const bool bonded = std::holds_alternative<BondedContact>(*pair.law);
-    if (!bonded && !b.rigid && std::fmin(a.m, b.m) < model_.contact.mass_screen * (a.m + b.m)) return;  // CONVENTIONS 37
+    if (!bonded && !b.rigid && std::fmin(a.m, b.m) < model_.contact.mass_screen * (a.m + b.m)) return;  // conventions 37
     pair.a = a.groups;
     pair.b = b.groups;
     pair.name.field_a = a.known_as;
@@ -240,7 +240,7 @@ class NodeFinder {
     for (std::size_t q = first; q < out_.pairs.size(); ++q) out_.pairs[q].previous = previous_state(node.number, out_.pairs[q]);
   }
 
-  /// All materials on either side of a crack (N13 sec. 2.3; CONVENTIONS 34).
+  /// All materials on either side of a crack (N13 sec. 2.3; conventions 34).
   void pair_sides(const ContactNode<Dim>& node) {
     if (cracks_.empty()) return;
     const std::size_t begin = out_.pairs.size();
@@ -259,12 +259,12 @@ class NodeFinder {
         if (face_each_other(g, h)) pair_across(node, sides_[g], sides_[h]);
       }
     }
-    // CONVENTIONS 13: [0][1], [2][3] of the first crack, then [0][2], [1][3] of the second.
+    // conventions 13: [0][1], [2][3] of the first crack, then [0][2], [1][3] of the second.
     std::sort(out_.pairs.begin() + static_cast<std::ptrdiff_t>(begin), out_.pairs.end(),
               [](const ContactPair<Dim>& a, const ContactPair<Dim>& b) { return a.name < b.name; });
   }
 
-  /// Sides that differ by one crack do; by several, where no other side of this node lies between them (CONVENTIONS 50). N13 has pairs of
+  /// Sides that differ by one crack do; by several, where no other side of this node lies between them (conventions 50). N13 has pairs of
   /// the first kind only.
   bool face_each_other(std::size_t g, std::size_t h) const {
     const int apart = differences(sides_[g].cracks, sides_[h].cracks);
@@ -282,7 +282,7 @@ class NodeFinder {
     pair.law = between->law;
     const double fraction = a.m / (a.m + b.m);
     const bool bonded = std::holds_alternative<BondedContact>(*pair.law);
-    if (!bonded && std::fmin(fraction, 1 - fraction) < model_.contact.mass_screen) return;  // CONVENTIONS 37
+    if (!bonded && std::fmin(fraction, 1 - fraction) < model_.contact.mass_screen) return;  // conventions 37
     pair.a = a.groups;
     pair.b = b.groups;
     pair.name = between->name;

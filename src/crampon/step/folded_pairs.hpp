@@ -1,5 +1,5 @@
 #pragma once
-/// Pairs of a particle and a node that lies beyond a symmetry plane (CONVENTIONS 29) or beyond a face of prescribed velocity. The particle
+/// Pairs of a particle and a node that lies beyond a symmetry plane (conventions 29) or beyond a face of prescribed velocity. The particle
 /// exchanges with the mirror node instead: what it would read beyond is v_beyond = flip v + offset.
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-/// What loads do in a step, and the energy books of the run (fracture.md 8).
+/// What loads do in a step, and the energy books of the run (docs/theory/contact.md, energy).
 
 #include "crampon/step/model.hpp"
 #include "crampon/step/state.hpp"
@@ -11,7 +11,7 @@ template <int Dim>
 void evaluate_loads(double time, const Model<Dim>& model, std::vector<Vec<Dim>>& loads, Vec<Dim>& body_force, double& damping);
 
 /// In the first step, and when contact by volume is measured against the body as it was: nodal volumes of the uncut body at the
-/// start, sum V_p S (CONVENTIONS 10).
+/// start, sum V_p S (conventions 10).
 template <int Dim, class Shape>
 void record_initial_volume(State<Dim>& state, const Model<Dim>& model);
 

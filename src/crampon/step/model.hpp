@@ -75,7 +75,7 @@ struct VelocityCondition {
   std::vector<Component> components;
   std::vector<std::int64_t> nodes;  ///< node numbers (Grid::node_number), ascending
   double start = 0, end = 0;        ///< s
-  bool symmetry = false;            ///< normal momentum and force are zero (CONVENTIONS 29)
+  bool symmetry = false;            ///< normal momentum and force are zero (conventions 29)
   int rigid_body = -1;              ///< that prescribes it; its nodes are found anew in each step
 };
 
@@ -140,8 +140,8 @@ struct Model {
     ContactPairs pairs = ContactPairs::joint;
     ReferenceVolume reference_volume = ReferenceVolume::initial;
     double volume_separated = 0.9, volume_contact = 1.1;  ///< V_sep, V_contact (N03 section 2.2)
-    bool require_approach = true;                         ///< also above V_contact (CONVENTIONS 6)
-    double mass_screen = 1e-6;                            ///< CONVENTIONS 37
+    bool require_approach = true;                         ///< also above V_contact (conventions 6)
+    double mass_screen = 1e-6;                            ///< conventions 37
     ContactDetection material_detection = ContactDetection::position;
     std::optional<double> position_cutoff;  ///< cells; none: by MaterialField::edge
     ContactNormal normal = ContactNormal::logistic_regression;

@@ -5,7 +5,7 @@
 namespace crampon {
 
 /// Task 8, after particles have moved. Surface points go with their carriers (step/crack_carriers.hpp). Vertices of the plane move with the
-/// centre-of-mass velocity of all fields (N03 Eq. 32; CONVENTIONS 39), v = sum S v_cm with linear S; where some of the nodes about have no
+/// centre-of-mass velocity of all fields (N03 Eq. 32; conventions 39), v = sum S v_cm with linear S; where some of the nodes about have no
 /// mass, with the mean of their surface points. The plane stays between its surfaces. Vertices without any of these go with the nearest
 /// vertex of their crack that has one.
 template <int Dim>

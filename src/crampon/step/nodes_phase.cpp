@@ -212,7 +212,7 @@ template <int Dim>
 void settle_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
   adjust_contact(state, model, b, ContactTask::six, dt);
   take_face_impulses(state, model, b, ContactTask::six, dt);
-  if (model.boundary_order == BoundaryOrder::contact_first) impose_end_momenta(state, model, b);  // CONVENTIONS 28
+  if (model.boundary_order == BoundaryOrder::contact_first) impose_end_momenta(state, model, b);  // conventions 28
   find_velocities(state, b);
   if (model.positions == PositionUpdate::strain) move_with_velocities(state, b);
 }

@@ -125,7 +125,7 @@ void for_slots(const State<Dim>& state, const Model<Dim>& model, std::size_t b, 
   }
 }
 
-/// Signs by which a folded pair exchanges vectors (CONVENTIONS 29).
+/// Signs by which a folded pair exchanges vectors (conventions 29).
 template <class V>
 inline V flipped(V a, unsigned flip) {
   if (flip == 0) return a;

@@ -5,8 +5,8 @@
 namespace crampon {
 
 /// Orders particles by block, material, base node and id, and finds the blocks they need; every run is padded to whole packs.
-/// Done when some particle has left its block's margin (DESIGN section 2). Particles marked by id == padding_id are dropped.
-/// Throws RunError when a particle is out of the grid.
+/// Done when some particle has left its block's margin (docs/theory/space.md, order of particles). Particles marked by id == padding_id are
+/// dropped. Throws RunError when a particle is out of the grid.
 template <int Dim, class Shape>
 void reorder(State<Dim>& state, const Model<Dim>& model);
 

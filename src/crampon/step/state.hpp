@@ -201,7 +201,7 @@ struct State {
   std::vector<RigidReaction<Dim>> rigid_reactions;  ///< per rigid body, last step
   std::vector<std::int64_t> prescribed_by_rigid;    ///< node number * Dim + axis, ascending: last step
   std::vector<bool> condition_was_active;
-  std::unordered_map<std::int64_t, double> initial_volume;  ///< by node number: of the uncut body at the start, m2 or m3 (CONVENTIONS 10)
+  std::unordered_map<std::int64_t, double> initial_volume;  ///< by node number: of the uncut body at the start, m2 or m3 (conventions 10)
   bool must_reorder = true;
   std::size_t particle_count = 0;
   std::int64_t removed = 0;  ///< particles removed on leaving the grid
