@@ -1,4 +1,4 @@
-"""Does the line from a particle to a node cross a crack? The rules of docs/theory/crossing.md, in exact rational arithmetic.
+"""Does the line from a particle to a node cross a crack? The rules of docs/theory/crossing.md in exact rational arithmetic.
 
 Points are pairs of floats; every float is a rational number, so the signs below carry no rounding at all.
 """

@@ -1,5 +1,5 @@
 /// Constitutive laws through the door the time step uses (material/material_law.hpp), against the same laws written once more with
-/// plain matrices: docs/theory/kinematics.md, N03 Eqs. 9, 28 and 35.
+/// plain matrices: docs/theory/kinematics.md; N03 Eqs. 9, 28 and 35.
 
 #include <gtest/gtest.h>
 

@@ -38,7 +38,7 @@ struct Disk {
 void PrintTo(const Disk& c, std::ostream* out) { *out << c.name << ", " << c.shape_functions; }
 class DiskOnIncline : public testing::TestWithParam<Disk> {};
 
-/// Validation row 36, 60 degrees: friction below tan/3 = .577 lets the disk slip, a = g(sin - mu cos); more makes it roll, a = 2/3 g sin;
+/// Validation row 36 (60 degrees): friction below tan/3 = .577 lets the disk slip, a = g(sin - mu cos); more makes it roll, a = 2/3 g sin;
 /// 2 %. Gravity comes slowly and damped, so that the disk does not bounce. The spin within 3 %: the pressure under a soft disk, a few cells
 /// wide, acts a little before its centre. The linear case that rolls is off by 7 % where contacts hold nodes whatever their gap.
 TEST_P(DiskOnIncline, SlipsOrRolls) {

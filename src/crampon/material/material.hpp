@@ -1,6 +1,6 @@
 #pragma once
 /// The door to constitutive laws: what the step needs of a law, without knowing which law it is.
-/// A law itself is a plain struct in its own file (material/neo_hookean.hpp); law_kernel.hpp wraps it; registry.cpp lists it.
+/// A law itself is a plain struct in its own file (material/neo_hookean.hpp). LawKernel in material_law.hpp wraps it; registry.cpp lists it.
 
 #include <memory>
 
