@@ -10,9 +10,9 @@ namespace crampon {
 
 namespace {
 
-/// Sizes of particles by which the faces of a corner must part two bodies better than one plane does. More than what rows of particles that
-/// slant across the cells, and round faces, leave to either; less than the overlap that one plane leaves at a corner of which a node sees the
-/// outermost row.
+/// A corner is taken for one when its faces leave a gap that is wider than the gap of one plane by this many sizes of particles. Rows of
+/// particles that slant across the cells and round faces gain less, and are no corners. At a true corner one plane leaves a larger overlap,
+/// even when the node sees only the outermost row of the particles.
 constexpr double clear_gain = 0.6;
 
 /// Size of the particles across n in the mean, as perpendicular_cell() has it of cells, m.

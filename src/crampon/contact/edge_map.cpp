@@ -51,7 +51,7 @@ class Profile {
   double scale_ = 1;
 };
 
-/// Layers so thin stand for a continuum.
+/// Half the thickness of a layer of particles, in cells, that stands for a body without layers.
 constexpr double continuous_half_size = 1. / 256;
 
 }  // namespace

@@ -44,8 +44,9 @@ class EdgeMap {
   /// Knows no shape function: takes the mean position for the edge, and every area for zero.
   EdgeMap() = default;
 
-  /// d of particles whose mean position is p cells ahead of the node. Continuous and increasing: where the node does not see the edge, or
-  /// sees a single layer, d goes on in step with p.
+  /// The distance d of the edge, in cells, when the mean position of the particles is p cells ahead of the node. d is continuous and
+  /// increases with p. Where the node does not see the edge, or sees a single layer of particles, the table ends, and d changes by as much
+  /// as p does.
   double edge_distance(double p, const PlaneInCells& plane = {}) const;
   /// The node's part of the area of an edge at distance d, over V_i/h.
   double area_at(double d, const PlaneInCells& plane = {}) const;

@@ -6,8 +6,9 @@
 
 namespace crampon {
 
-/// Above this damage of the particles beside it an interface has failed. Where it fails a node gives damage 1 to the particles about; that
-/// comes back as the mean of S over the face weighted by S, .55 to .67 for each direction along the face.
+/// An interface has failed at a node when the mean damage of the particles beside it exceeds this number. A node at which it fails gives
+/// damage to each particle about it, in the measure of its weight among the particle's nodes in contact. What the node reads back is the
+/// mean of this measure, weighted by S_ip: .55 to .67 for each direction along the face. The limit is below that.
 template <int Dim>
 inline constexpr double interface_failed = Dim == 2 ? 0.5 : 0.25;
 

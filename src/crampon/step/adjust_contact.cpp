@@ -41,8 +41,10 @@ void close_pair(const ContactGroup<Dim>* groups, ContactPair<Dim>& pair, double 
   note_slip(pair, w, dt);
 }
 
-/// Springs of interfaces open as Task 4 has left them: positions move with its relative velocity, which strains, of Task 6, do not see.
-/// With that a spring that is held closes without a strain for each tenth that it closes.
+/// Interfaces are springs, and a spring opens with the relative velocity that Task 4 has found for its two sides. Positions must therefore
+/// move with that velocity, although strains follow the velocities of Task 6. The drift of a group is the difference of the two. A spring
+/// that is too stiff for the step is held and closes by a tenth in each step (docs/theory/contact.md, interfaces): the drift moves its
+/// sides together, and no strain comes of it.
 template <int Dim>
 void find_drift(ContactGroup<Dim>* groups, const ContactPair<Dim>* pairs, int pair_count) {
   for (int q = 0; q < pair_count; ++q) {

@@ -1,7 +1,7 @@
 #pragma once
 /// Surface points of cracks are points of the material: each is carried by some particles on its side of the crack, those about it at the
 /// start. Its displacement is a weighted mean of theirs, exact for any linear field of displacements, and tractions reach the nodes by the
-/// way back, through the same particles (docs/decisions/0010).
+/// way back, through the same particles (docs/decisions/0010-surface-points.md).
 
 #include <array>
 

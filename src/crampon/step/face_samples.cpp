@@ -58,9 +58,11 @@ RigidFaceView<Dim> FaceSampler<Dim>::see(const FacePart<Dim>& part, const Vec<Di
   return see_face(model_.rigid_bodies[part.body], state_.rigid[part.body].start, x);
 }
 
-/// How the surface of a body, which is at x + to_surface, faces the rigid one. Edges of either: where the rigid body shows an edge, it is the
-/// surface of the other that tells the normal, and the distance is that of its point; where the other does, the way along the normal of
-/// the rigid body counts.
+/// Normal and gap between the surface of a body and a rigid face, as a particle at x sees them. The nearest point of the body's surface is
+/// x + to_surface. There are three cases. If the particle sees an edge of the rigid body, the normal is that of the body's surface, and the
+/// gap is the distance of that surface point from the rigid body. If the body's surface faces the rigid one, the normal is that of the
+/// rigid face, and the gap is the particle's distance less the depth of its surface. If the nearest surface is another side of the body,
+/// the depth is taken along the rigid face's normal instead.
 template <int Dim>
 template <class Along>
 std::optional<FaceSample<Dim>> FaceSampler<Dim>::before_face(const FacePart<Dim>& part, const Vec<Dim>& x, const Vec<Dim>& to_surface,

@@ -12,14 +12,16 @@ namespace crampon {
 
 namespace {
 
-/// Depth in cells before a rigid face from which on a node is inside the material that the face stops, and not held itself. Wider shape
-/// functions see the face from further away, but a second row of nodes held takes away the give of the first row of cells. Less than one by
-/// more than what positions err by: at one lie the nodes of bodies aligned with the grid.
+/// A rigid face holds nodes that lie less deep in the material than this, in cells. Shape functions of three nodes see the face from
+/// further away too. But if the face held two rows of nodes, the first row of cells could not deform. The second row of nodes of a body
+/// that is aligned with the grid lies at a depth of exactly one cell. The limit is less than one so that errors of positions do not decide
+/// about it.
 constexpr double deepest_held = 0.99;
 
-/// Of a particle in regressions. Particles come into the reach of a node, and leave it, without a jump: those of uGIMP, two per cell, lie at
-/// its very end, and normals that turned by some degrees with every tremor kept bodies trembling. The root of a product is one of roots:
-/// rows along a face stay equal to each other but for a factor, and none tilts the normal.
+/// The weight of a particle in regressions is the root of S_ip. It goes to zero where the node's reach ends, so that a particle comes in
+/// and leaves without a jump. uGIMP particles, two per cell, lie exactly at that end. With a jump, a tremor of such a particle turned the
+/// normal by some degrees, and the turned normal kept the body trembling. S_ip is a product of one factor for each axis, and so is its
+/// root. The weights of two rows of particles along a face therefore differ by a common factor only, which does not tilt the normal.
 template <int Dim>
 double regression_weight(const CloudPoint<Dim>& point) {
   return std::sqrt(point.S);
@@ -221,7 +223,8 @@ double FaceToFace<Dim>::relative_volume(const MeetingPlace<Dim>& place) const {
   return place.volume / reference;
 }
 
-/// The lagged scheme asks for a gap: by volume there is one, of unknown size, below V_sep, and none above.
+/// The consistent scheme needs a gap, but a relative volume gives no distance. Below V_sep the gap counts as infinitely wide, from V_sep on
+/// as closed.
 template <int Dim>
 double FaceToFace<Dim>::gap_by_volume(double volume_ratio) const {
   return volume_ratio < model_.contact.volume_separated ? std::numeric_limits<double>::max() : 0.;

@@ -144,7 +144,8 @@ class NodeFinder {
     }
   }
 
-  /// Where what bonds two groups lies elsewhere, they go by their own fields.
+  /// Contact remembers a face by the lowest field to which bonded laws join it anywhere. Two groups of a node have the same such field when
+  /// the fields that join them have no mass at this node. Then each group is remembered by the lowest of its own fields.
   void tell_apart() {
     for (std::size_t g = 1; g < faces_.size(); ++g) {
       for (std::size_t h = 0; h < g; ++h) {

@@ -8,16 +8,17 @@
 
 namespace crampon {
 
-/// Task 3. Nodes add body force and damping to all their mass; on what folded pairs brought them these act as on a mirror image. An image
-/// also takes the force that follows an accelerated face. Adds the difference to the block's tiles.
+/// Task 3. Nodes apply body force and damping to all their mass. A folded pair has brought them mass of a mirror image, and on an image the
+/// body force acts with the sign of its normal component changed. An image also needs the force that lets it follow a face which speeds up.
+/// Adds what is missing to the block's tiles.
 /// \param body_force  m/s2  \param damping  1/s
 template <int Dim, class Shape>
 void project_mirrored_forces(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const Vec<Dim>& body_force,
                              double damping, NodalVector<Dim>* tiles);
 
-/// After Task 4. Books the part of reactions that folded pairs carry, so that a plane's or a face's reaction is the rate at which it changes
-/// the momentum of the particles (docs/theory/step.md, symmetry planes); impose_forces has booked that of the nodes on it. Corrects the
-/// works that nodes took all their mass for.
+/// After Task 4. The reaction of a plane or a face is the rate at which it changes the momentum of the particles (docs/theory/step.md,
+/// symmetry planes). impose_forces() has booked the part of the nodes on it; this function books the part of the folded pairs. Nodes
+/// computed the work of body force and damping as if none of their mass were that of an image; this function corrects it.
 /// \param load_values  per load and component
 template <int Dim, class Shape>
 void account_mirrored_forces(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt,

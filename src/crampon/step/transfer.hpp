@@ -60,8 +60,9 @@ struct VelocityRule {
   bool is_flip() const { return own == 1 && nodal == 0 && damped == 0; }
 };
 
-/// Damping of nodes (1/s) takes from FLIP particles as much of what nodes do not see of their velocities as it takes from nodes: it is a force on
-/// particles. N03 Eq. 30 (PositionUpdate::n03) leaves that. particle_damping: 1/s.
+/// Damping (1/s) is a force on particles. Nodes lose the part of it that they see. The velocity of a FLIP particle has another part, which
+/// nodes do not see; damping takes the same fraction of it. With N03 Eq. 30 (PositionUpdate::n03) this other part is not damped.
+/// particle_damping: 1/s.
 VelocityRule velocity_rule(const TransferSpec&, const StepTransfer&, StressUpdate, PositionUpdate, double dt, double damping,
                            double particle_damping);
 

@@ -32,7 +32,8 @@ struct Advance {
   }
 };
 
-/// v += a dt alone; a position stays good whatever a is, for the stencils that are still to come in this step.
+/// v += a dt. The position keeps its bits even where a is not a number, because stencils that are still to come in this step are found from
+/// it.
 template <int Dim>
 void accelerate(Particles<Dim>& particles, std::size_t p, const MotionRecord<Dim>& m, double dt) {
   constexpr int last = motion_packs<Dim> - 1;
@@ -41,7 +42,8 @@ void accelerate(Particles<Dim>& particles, std::size_t p, const MotionRecord<Dim
   q = Dim == 2 ? __builtin_shufflevector(q, moved, 0, 1, 6, 7) : moved;
 }
 
-/// What took a position on by its own velocity is to have taken it by the one that moves it.
+/// Before the step, lead_positions() has moved the particle on by the time `further`, s, with the particle's own velocity. The velocity
+/// that moves particles in this step was not known then. Replaces the one by the other for that time.
 template <int Dim>
 void correct_lead(Particles<Dim>& particles, std::size_t p, const MotionRecord<Dim>& m, double further) {
   const Vec<Dim> v = particles.velocity(p);

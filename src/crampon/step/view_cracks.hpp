@@ -9,8 +9,9 @@ namespace crampon {
 /// Fills State::crack_view. `reach`: how many cells beyond its own a particle has nodes.
 void view_cracks(State<2>& state, const Model<2>& model, int reach);
 
-/// By which crack the node in the mirror is parted from a particle that crosses `crack` on its way to the node beyond the plane: a crack and
-/// its image change places.
+/// A line from a particle to a node beyond a symmetry plane crosses `crack`. Mirrored in the plane, the line ends at the mirror node, and
+/// it crosses the image of the crack. Returns this image, by which the pair is parted from the mirror node. The image of an image is the
+/// crack itself.
 CrackId seen_in_mirror(const CrackView& view, CrackId crack, std::size_t plane);
 
 }  // namespace crampon
