@@ -77,7 +77,7 @@ def write(path, h):
     u, elements, (columns, _) = solve(h)
     sigma = mid_plane_stress(u, elements, columns, h)
     with open(path, "w") as stream:
-        stream.write("# Static 4-node finite element solution of the double cantilever beam of N03 sec. 3.1 (half model, plane stress),\n"
+        stream.write("# Static 4-node finite element solution of the double cantilever beam of N03 3.1 (half model, plane stress),\n"
                      "# cells of %g mm; made by tests/oracle/static_fe.py --write tests/oracle/data\n"
                      "# sigma_xx is extrapolated from 2 x 2 particle positions per element by mass-weighted shape functions\n"
                      "x[m],sigma_xx[Pa],u_y[m]\n" % (h * 1e3))
