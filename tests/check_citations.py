@@ -33,7 +33,7 @@ OWN_SECTION = re.compile(r"(?<!N03 )(?<!N13 )\bsections? " + LIST)
 DECISION = re.compile(r"\b[Dd]ecisions?[ /]" + LIST)
 SHORT_DECISION = re.compile(r"(?<![\d.])(0\d{3})\b(?!-)")
 ROW = re.compile(r"\b[Vv]alidation rows? " + LIST)
-SOURCE = re.compile(r"(?<![\w/.*<{$-])((?:[\w.-]+/)*\w+\.(?:hpp|cpp|py|cmake|toml))\b(?![/*])")
+SOURCE = re.compile(r"(?<![\w/.*<{$-])((?:[\w.-]+/)*\w+\.[hc]pp|(?:[\w.-]+/)+\w+\.(?:py|cmake|toml))\b(?![/*])")
 TEST = re.compile(r"`([a-z0-9_]+_test)`")
 PAPER = re.compile(r"\b(N03|N13)(?:'s)?,? \(?(Eq|sec|Fig|Task)(?:uation|tion|ure)?s?\.? " + LIST)
 BARE_EQUATION = re.compile(r"(?<!N03 )(?<!N13 )\bEqs?\. " + LIST)
@@ -74,10 +74,6 @@ def prose(path, text):
         yield first, " ".join(lines), starts
 
 
-def slug(heading):
-    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
-
-
 class Repository:
     def __init__(self, top, files):
         self.top, self.files, self.names = top, files, {f.name for f in files}
@@ -93,8 +89,7 @@ class Repository:
     def headings_of(self, page):
         """Headings of a page, and the words in bold that a paragraph begins with."""
         if page not in self.headings:
-            self.headings[page] = re.findall(r"^#+ (.+)$|^\*\*([^*]+)\*\*", self.read(page), re.M)
-            self.headings[page] = [a or b for a, b in self.headings[page]]
+            self.headings[page] = [a or b for a, b in re.findall(r"^#+ (.+)$|^\*\*([^*]+)\*\*", self.read(page), re.M)]
         return self.headings[page]
 
     def resolve(self, cited, citing):
@@ -139,10 +134,9 @@ class Repository:
                         say(match, f"the link {match.group(1)} leads nowhere", "link a file, relative to this page")
             need(ROW, self.rows.__contains__, "validation row", f"cite a row of {VALIDATION}")
             for match in SOURCE.finditer(text):
-                if "/" in match.group(1) or match.group(1).endswith("pp"):
-                    self.cited += 1
-                    if not self.resolve(match.group(1), path):
-                        say(match, f"there is no file {match.group(1)}", "cite a file, from the root or from src/crampon")
+                self.cited += 1
+                if not self.resolve(match.group(1), path):
+                    say(match, f"there is no file {match.group(1)}", "cite a file, from the root or from src/crampon")
             for match in PAPER.finditer(text):
                 known = PAPERS[match.group(1)][match.group(2)]
                 for number in numbers_of(match.group(3), known if match.group(2) == "sec" else ()):
@@ -159,7 +153,7 @@ class Repository:
             say(match, f"there is no page {cited}", "cite a page of the repository")
             return
         headings = self.headings_of(target)
-        if anchor and anchor[1:] not in map(slug, headings):
+        if anchor and anchor[1:] not in (re.sub(r"[^\w\- ]", "", h.lower()).replace(" ", "-") for h in headings):
             say(match, f"{cited} has no heading for {anchor}", "correct the anchor")
         if words and target.startswith(("docs/theory/", "docs/architecture")):
             for section in re.split(r", | and ", words.strip()):
@@ -167,16 +161,19 @@ class Repository:
                     say(match, f"{cited} has no section '{section}'", "cite a heading of that page")
 
 
-def tracked_files(top):
+def own_files(top):
+    """Files that git knows or would take; without git all but what a build or a run makes."""
+    command = ["git", "-C", str(top), "ls-files", "--cached", "--others", "--exclude-standard"]
     try:
-        listed = subprocess.run(["git", "-C", str(top), "ls-files"], check=True, capture_output=True, text=True).stdout.split("\n")
+        listed = sorted(set(subprocess.run(command, check=True, capture_output=True, text=True).stdout.split("\n")))
     except (OSError, subprocess.CalledProcessError):
-        listed = [str(f.relative_to(top)) for f in top.rglob("*") if not re.search(r"/(build|\.git)/|\.results/", str(f))]
+        listed = sorted(str(f.relative_to(top)) for f in top.rglob("*"))
+        listed = [f for f in listed if not re.match(r"(build|\.git)/|.*(\.results|__pycache__)/", f)]
     return [pathlib.Path(f) for f in listed if f and (top / f).is_file()]
 
 
 def complaints(top):
-    files = tracked_files(top)
+    files = own_files(top)
     repository = Repository(top, files)
     checked = [f for f in files if f.suffix in ENDINGS and str(f) not in SKIPPED]
     for path in checked:
