@@ -58,6 +58,9 @@ class FakeSimulation : public Simulation {
     return frame;
   }
   CrackFrame cracks() const override { return {}; }
+  SavedState save() const override { return {}; }
+  void load(const SavedState&) override {}
+  std::int64_t last_reordering() const override { return -1; }
   PointFrame nodes() const override { return {}; }
   std::vector<HistoryColumn> history_columns() const override { return {{"time", "s"}, {"ramp", "m"}, {"square", "m2"}}; }
   std::vector<double> history_row() const override { return {time_, 3 * time_, time_ * time_}; }

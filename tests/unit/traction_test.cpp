@@ -15,7 +15,6 @@ namespace crampon::test {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<TractionHistory>);
-static_assert(sizeof(TractionHistory) == traction_history_fields.size() * sizeof(double));
 
 Traction update(const TractionLawSpec& law, const PerMode& opening, TractionHistory& history) {
   return update_traction(law, opening, 0, Vec<3>{}, history);

@@ -42,13 +42,13 @@ Moment<Dim> step_once(const std::string& text, const Vec<Dim>& moved, const std:
       scale = std::fmax(scale, std::fabs(stress[c]));
     }
   }
-  advance<Dim, Shape>(state, built.model, dt, Watched::no);
+  advance<Dim, Shape>(state, built.work, built.model, dt, Watched::no);
   Moment<Dim> m;
   for (std::size_t p = 0; p < state.particles.size(); ++p) {
     m.unbalance = std::fmax(m.unbalance, norm(state.particles.velocity(p)) * state.particles.mass(p) / (scale * dt));
   }
   Vec<Dim> total = sum_particles(state, built.model).momentum * (1 / dt);
-  for (const Vec<Dim>& load : total_loads(state, built.model, 0)) total -= load;
+  for (const Vec<Dim>& load : total_loads(state, built.work, built.model, 0)) total -= load;
   m.lost = norm(total) / scale;
   return m;
 }

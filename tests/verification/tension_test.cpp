@@ -311,8 +311,8 @@ vy = 0
   const double c = std::sqrt(E / 0.1), dt = courant * cell / (c * std::fmax(stretch, 1.));
   const auto damp = [&](double kappa) { model.damping = ValueFunction::constant(kappa), model.damped = kappa > 0; };
   damp(2000);
-  while (state.time < 0.2) {
-    advance<2, Shape>(state, model, dt, Watched::no);
+  while (state.clock.time < 0.2) {
+    advance<2, Shape>(state, built.work, model, dt, Watched::no);
     // Waves that the grid does not see die out by a share of its velocity.
     for (std::size_t p = 0; p < state.particles.size(); ++p) {
       Pack& q = state.particles.motion[p];
@@ -328,7 +328,7 @@ vy = 0
   }
   // Of what moves along the bar: position, velocity, stretch. Nothing changes place in the order of particles: they hardly move.
   Particles<2>& particles = state.particles;
-  const std::size_t of_each = particles.has_domains() ? 4 : 3;  // domains that stretch have a length
+  const std::size_t of_each = particles.has_domains ? 4 : 3;  // domains that stretch have a length
   const auto number = [&](std::size_t i) -> double& {
     const std::size_t p = real[i / of_each], which = i % of_each;
     if (which < 2) return reinterpret_cast<double*>(&particles.motion[p])[which == 0 ? 0 : 2];
@@ -341,16 +341,16 @@ vy = 0
   };
   const auto motion = copy(particles.motion), history = copy(particles.history), stress = copy(particles.stress),
              domain = copy(particles.domain);
-  const double time = state.time, unit[4] = {cell, c, 1, cell};
+  const double time = state.clock.time, unit[4] = {cell, c, 1, cell};
   const std::size_t size = of_each * real.size();
   const auto stepped = [&](std::size_t j, double e) {
     std::copy(motion.begin(), motion.end(), particles.motion.data());
     std::copy(history.begin(), history.end(), particles.history.data());
     std::copy(stress.begin(), stress.end(), particles.stress.data());
     std::copy(domain.begin(), domain.end(), particles.domain.data());
-    state.time = time;
+    state.clock.time = time;
     number(j) += e * unit[j % of_each];
-    advance<2, Shape>(state, model, dt, Watched::no);
+    advance<2, Shape>(state, built.work, model, dt, Watched::no);
     Eigen::VectorXd out(static_cast<Eigen::Index>(size));
     for (std::size_t i = 0; i < size; ++i) out[static_cast<Eigen::Index>(i)] = number(i) / unit[i % of_each];
     return out;

@@ -8,8 +8,8 @@
 
 #include "crampon/contact/account.hpp"
 #include "crampon/contact/law.hpp"
-#include "crampon/contact/memory.hpp"
 #include "crampon/core/vector.hpp"
+#include "crampon/state/contact_memory.hpp"
 #include "crampon/state/layers.hpp"
 
 namespace crampon {

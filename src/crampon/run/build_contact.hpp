@@ -2,8 +2,8 @@
 /// What the input says about meetings of bodies, as the engine wants it.
 
 #include "crampon/input/problem.hpp"
+#include "crampon/state/state.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
 
 namespace crampon {
 

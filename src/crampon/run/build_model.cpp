@@ -201,7 +201,7 @@ void build_cracks(const Problem& problem, const BuiltBodies<2>& bodies, BuiltMod
     crack.extension = extensions(crack, material);
     crack.mirrored = mirrored_ends(crack, model);
     model.tractions.push_back(build_traction(problem, in, crack, material, 1e-9 * grid.smallest_cell(), errors));
-    out.cracked.push_back(between_material(crack, material));
+    out.state.observed.cracked.push_back(between_material(crack, material));
     out.state.cracks.list.push_back(std::move(crack));
   }
 }
@@ -217,14 +217,18 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
   std::uint32_t packs = 0;
   for (std::size_t m = 0; m < by_material.size(); ++m) {
     const auto count = static_cast<std::uint32_t>((by_material[m].size() + lanes - 1) / lanes);
-    state.blocks.runs.push_back({packs, packs + count, static_cast<std::uint32_t>(m)});
+    state.order.runs.push_back({packs, packs + count, static_cast<std::uint32_t>(m)});
     packs += count;
   }
   Particles<Dim>& particles = state.particles;
   const bool has_domains = model.shape_functions == ShapeFunctionKind::cpdi;
-  particles.allocate(packs, history, model.remembers_contact(), has_domains);
+  particles.packs = packs;
+  particles.history_size = history;
+  particles.remembers_contact = model.remembers_contact();
+  particles.has_domains = has_domains;
+  particles.allocate();
   for (std::size_t m = 0; m < by_material.size(); ++m) {
-    const Run& run = state.blocks.runs[m];
+    const Run& run = state.order.runs[m];
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
       Pack* law_history = particles.history.data() + k * static_cast<std::size_t>(history);
       for (int c = 0; c < history; ++c) law_history[c] = splat(0.);
@@ -250,7 +254,7 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
       }
     }
   }
-  state.particle_count = bodies.particles.size();
+  state.order.particle_count = bodies.particles.size();
 }
 
 }  // namespace
@@ -296,7 +300,7 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   if (errors.empty()) build_loads(problem, bodies, out.state.cracks, model, errors);
   if (!errors.empty()) throw InputError(std::move(errors));
   place_particles(bodies, model, out.state);
-  start_face_loads(out.state, model);
+  start_face_loads(out.state, out.work, model);
   bear_initial_stress(problem, model, out.state, errors);
   if (!errors.empty()) throw InputError(std::move(errors));
   keep_surfaces(problem, bodies, out.state, model);

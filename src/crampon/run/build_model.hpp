@@ -1,7 +1,7 @@
 #pragma once
 #include "crampon/input/problem.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -9,7 +9,7 @@ template <int Dim>
 struct BuiltModel {
   Model<Dim> model;
   State<Dim> state;
-  std::vector<std::vector<bool>> cracked;  ///< per crack and vertex: there is material on both sides at the start
+  StepWork<Dim> work;
 };
 
 /// Grid, laws, particles, cracks, conditions and loads of a problem. threads <= 0: all cores.

@@ -63,10 +63,9 @@ void add_openings(const Crack<2>& crack, const std::vector<bool>& cracked, std::
 }  // namespace
 
 template <int Dim>
-void HistorySampler<Dim>::start(const Problem& problem, std::vector<std::vector<bool>> cracked) {
-  cracked_ = std::move(cracked);
+void HistorySampler<Dim>::start(const Problem& problem, Observed& observed) {
   const auto sums = sum_particles(state_, model_);
-  initial_energy_ = sums.kinetic + sums.strain;
+  observed.initial_energy = sums.kinetic + sums.strain;
   std::vector<Diagnostic> errors;
   for (const ProbeInput& in : problem.probes) {
     try {
@@ -75,7 +74,7 @@ void HistorySampler<Dim>::start(const Problem& problem, std::vector<std::vector<
       errors.push_back({in.at("quantity"), error.what(), "it is a particle quantity or a component of one", "correct the name"});
     }
     double best = std::numeric_limits<double>::infinity();
-    Probe probe{in.name, in.quantity, 0};
+    std::uint32_t nearest = 0;
     for (std::size_t p = 0; p < state_.particles.size(); ++p) {
       if (state_.particles.is_padding(p)) continue;
       if (!in.body.empty() && model_.bodies[state_.particles.body[p]] != in.body) continue;
@@ -83,10 +82,10 @@ void HistorySampler<Dim>::start(const Problem& problem, std::vector<std::vector<
       for (int k = 0; k < Dim; ++k) d[k] -= in.point[static_cast<std::size_t>(k)];
       // Of particles equally near, the one made first.
       const double distance = norm(d);
-      if (distance < best || (distance == best && state_.particles.id[p] < probe.particle))
-        best = distance, probe.particle = state_.particles.id[p];
+      if (distance < best || (distance == best && state_.particles.id[p] < nearest)) best = distance, nearest = state_.particles.id[p];
     }
-    probes_.push_back(probe);
+    probes_.push_back({in.name, in.quantity});
+    observed.probes.push_back(nearest);
   }
   if (!errors.empty()) throw InputError(std::move(errors));
 }
@@ -142,15 +141,15 @@ std::vector<HistoryColumn> HistorySampler<Dim>::columns() const {
 template <int Dim>
 std::vector<double> HistorySampler<Dim>::row() const {
   const auto sums = sum_particles(state_, model_);
-  const EnergyTotals& e = state_.energy;
+  const EnergyTotals& e = state_.ledger.energy;
   const double total = sums.kinetic + sums.strain;
-  const CohesiveTotals& cohesive = state_.cohesive;
+  const CohesiveTotals& cohesive = state_.ledger.cohesive;
   const double load_work = e.load_work + cohesive.work_of_pressure;
   const double held = e.interfaces + cohesive.stored, lost = e.damping + e.transfer_loss + e.contact_loss + e.friction_loss +
                                                              cohesive.dissipated_normal + cohesive.dissipated_shear;
-  const double left_energy = state_.left.kinetic + state_.left.strain;
-  const double closure = total + held + lost + left_energy - load_work - e.body_work - e.boundary_work - initial_energy_;
-  std::vector<double> row = {state_.time,
+  const double left_energy = state_.ledger.left.kinetic + state_.ledger.left.strain;
+  const double closure = total + held + lost + left_energy - load_work - e.body_work - e.boundary_work - state_.observed.initial_energy;
+  std::vector<double> row = {state_.clock.time,
                              sums.kinetic,
                              sums.strain,
                              total,
@@ -169,28 +168,30 @@ std::vector<double> HistorySampler<Dim>::row() const {
   for (int k = 0; k < Dim; ++k) row.push_back(sums.momentum[k]);
   row.push_back(sums.angular);
   if (model_.leaving_particle == LeavingParticle::remove) {
-    row.insert(row.end(), {state_.left.mass, left_energy});
-    for (int k = 0; k < Dim; ++k) row.push_back(state_.left.momentum[k]);
-    row.push_back(state_.left.angular);
+    row.insert(row.end(), {state_.ledger.left.mass, left_energy});
+    for (int k = 0; k < Dim; ++k) row.push_back(state_.ledger.left.momentum[k]);
+    row.push_back(state_.ledger.left.angular);
   }
   for (std::size_t c = 0; c < model_.conditions.size(); ++c) {
-    for (int k = 0; k < Dim; ++k) row.push_back(c < state_.reactions.size() ? state_.reactions[c][k] : 0.);
+    for (int k = 0; k < Dim; ++k) row.push_back(c < state_.ledger.reactions.size() ? state_.ledger.reactions[c][k] : 0.);
   }
   for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b) {
     if (model_.rigid_bodies[b].prescribes()) continue;
-    const RigidReaction<Dim> r = b < state_.rigid_reactions.size() ? state_.rigid_reactions[b] : RigidReaction<Dim>{};
+    const RigidReaction<Dim> r = b < state_.ledger.rigid_reactions.size() ? state_.ledger.rigid_reactions[b] : RigidReaction<Dim>{};
     for (int k = 0; k < Dim; ++k) row.push_back(r.force[k]);
     for (int k = Dim == 2 ? 2 : 0; k < 3; ++k) row.push_back(r.torque[k]);
   }
-  for (const Vec<Dim>& load : total_loads(state_, model_, state_.time)) row.insert(row.end(), load.c.begin(), load.c.end());
+  for (const Vec<Dim>& load : total_loads(state_, work_, model_, state_.clock.time)) row.insert(row.end(), load.c.begin(), load.c.end());
   if constexpr (Dim == 2) {
-    for (std::size_t c = 0; c < state_.cracks.size(); ++c) add_openings(present_crack(state_, state_.cracks.list[c]), cracked_[c], row);
+    for (std::size_t c = 0; c < state_.cracks.size(); ++c)
+      add_openings(present_crack(state_, work_, state_.cracks.list[c]), state_.observed.cracked[c], row);
   }
-  for (const Probe& probe : probes_) {
-    const auto& [ids, f] = probed(state_, model_, probe.quantity);
-    const auto at = std::lower_bound(ids.begin(), ids.end(), static_cast<double>(probe.particle));
+  for (std::size_t i = 0; i < probes_.size(); ++i) {
+    const std::uint32_t particle = state_.observed.probes[i];
+    const auto& [ids, f] = probed(state_, model_, probes_[i].quantity);
+    const auto at = std::lower_bound(ids.begin(), ids.end(), static_cast<double>(particle));
     for (int k = 0; k < f.components; ++k) {
-      const bool there = at != ids.end() && *at == probe.particle;
+      const bool there = at != ids.end() && *at == particle;
       row.push_back(there ? f.values[static_cast<std::size_t>(at - ids.begin()) * f.components + k]
                           : std::numeric_limits<double>::quiet_NaN());
     }

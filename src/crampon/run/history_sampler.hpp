@@ -8,7 +8,7 @@
 #include "crampon/input/problem.hpp"
 #include "crampon/output/history.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -16,11 +16,11 @@ namespace crampon {
 template <int Dim>
 class HistorySampler {
  public:
-  HistorySampler(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {}
+  HistorySampler(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model) : state_(state), work_(work), model_(model) {}
 
-  /// With the state as it is at the start of the run: the energy that the balance begins with, and the particles that probes follow.
-  /// cracked: BuiltModel::cracked. Throws InputError for probes of quantities that do not exist.
-  void start(const Problem& problem, std::vector<std::vector<bool>> cracked);
+  /// With the state as it is at the start of the run: fills Observed with the energy that the balance begins with, and the particles that probes
+  /// follow. Throws InputError for probes of quantities that do not exist.
+  void start(const Problem& problem, Observed& observed);
 
   std::vector<HistoryColumn> columns() const;
   std::vector<double> row() const;  ///< SI, one value per column; the first is the time
@@ -28,13 +28,11 @@ class HistorySampler {
  private:
   struct Probe {
     std::string name, quantity;
-    std::uint32_t particle = 0;  ///< id
   };
   const State<Dim>& state_;
+  const StepWork<Dim>& work_;
   const Model<Dim>& model_;
-  double initial_energy_ = 0;  ///< J
-  std::vector<std::vector<bool>> cracked_;
-  std::vector<Probe> probes_;
+  std::vector<Probe> probes_;  ///< of the particles Observed::probes
 };
 
 /// Columns and row of a failure, for events.csv, SI.

@@ -63,7 +63,7 @@ void bear_initial_stress(const Problem& problem, const Model<Dim>& model, State<
   const StressAtStart<Dim> stress_at_start(problem);
   Particles<Dim>& particles = state.particles;
   std::vector<bool> told(problem.bodies.size(), false);
-  for (const Run& run : state.blocks.runs) {
+  for (const Run& run : state.order.runs) {
     const MaterialLaw& law = *model.materials[run.material].law;
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
       std::array<Pack, chosen_stress_size<Dim>> cauchy;

@@ -2,8 +2,8 @@
 /// [[body]] initial_stress: particles that bear stress from the start.
 
 #include "crampon/input/problem.hpp"
+#include "crampon/state/state.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
 
 namespace crampon {
 

@@ -50,10 +50,10 @@ Stretched most_stretched(const State<Dim>& state, const Model<Dim>& model, const
 
 template <int Dim>
 std::optional<std::string> tell_large_stretch(const State<Dim>& state, const Model<Dim>& model) {
-  if (state.particles.has_domains()) return std::nullopt;
-  std::vector<Stretched> of_runs(state.blocks.runs.size());
+  if (state.particles.has_domains) return std::nullopt;
+  std::vector<Stretched> of_runs(state.order.runs.size());
   parallel_for(of_runs.size(), model.threads, [&](std::size_t r) {
-    const Run& run = state.blocks.runs[r];
+    const Run& run = state.order.runs[r];
     if (!model.is_rigid(model.materials[run.material].field)) of_runs[r] = most_stretched(state, model, run);
   });
   Stretched most;

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "crampon/state/state.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
 
 namespace crampon {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -17,18 +16,7 @@ namespace {
 /// Past the largest id.
 template <int Dim>
 std::size_t id_end(const State<Dim>& state) {
-  return state.particle_count + static_cast<std::size_t>(state.removed);
-}
-
-/// Slots of real particles in the order of their ids.
-template <int Dim>
-std::vector<std::uint32_t> slots_by_id(const State<Dim>& state) {
-  std::vector<std::uint32_t> slots(id_end(state), padding_id);
-  for (std::size_t p = 0; p < state.particles.size(); ++p) {
-    if (!state.particles.is_padding(p)) slots[state.particles.id[p]] = static_cast<std::uint32_t>(p);
-  }
-  std::erase(slots, padding_id);  // of removed particles
-  return slots;
+  return state.order.particle_count + static_cast<std::size_t>(state.ledger.removed);
 }
 
 /// Rows of a frame, which stand in the order of ids.
@@ -41,7 +29,7 @@ struct Rows {
 
 template <int Dim>
 Rows find_rows(const State<Dim>& state) {
-  if (state.removed == 0) return {state.particle_count, {}};
+  if (state.ledger.removed == 0) return {state.order.particle_count, {}};
   std::vector<std::uint32_t> of_id(id_end(state), 0);
   for (const std::uint32_t id : state.particles.id) {
     if (id != padding_id) of_id[id] = 1;
@@ -151,20 +139,6 @@ RigidPlace rigid_place(const RigidBody<Dim>& body, const RigidPose<Dim>& pose) {
   return place;
 }
 
-class Hash {
- public:
-  template <class T>
-  void add(const T& value) {
-    unsigned char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    for (const unsigned char b : bytes) h_ = (h_ ^ b) * 1099511628211ull;
-  }
-  std::uint64_t value() const { return h_; }
-
- private:
-  std::uint64_t h_ = 14695981039346656037ull;
-};
-
 }  // namespace
 
 std::vector<QuantityDescription> describe_particle_quantities() {
@@ -201,8 +175,8 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
     return Numbers(real_type(precision), rows.count, components, Dim == 2 ? in_plane : components);
   };
   PointFrame frame;
-  frame.time = state.time;
-  frame.step = state.step;
+  frame.time = state.clock.time;
+  frame.step = state.clock.step;
   frame.dimension = Dim;
   frame.body_names = model.bodies;
   for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b)
@@ -220,8 +194,8 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
   frame.fields.push_back({"id", "1", 1, Numbers::labels<std::uint32_t>(rows.count)});
   frame.fields.push_back({"body", "1", 1, Numbers::labels<std::uint16_t>(rows.count)});
   for (const Quantity* q : wanted) frame.fields.push_back({q->is.name, q->is.unit, q->is.components, numbers(q->is.components)});
-  parallel_for(state.blocks.runs.size(), model.threads, [&](std::size_t r) {
-    const Run& run = state.blocks.runs[r];
+  parallel_for(state.order.runs.size(), model.threads, [&](std::size_t r) {
+    const Run& run = state.order.runs[r];
     const Material<Dim>& material = model.materials[run.material];
     const std::vector<double> size = size_of(material);
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
@@ -248,13 +222,13 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
 }
 
 template <>
-CrackFrame sample_cracks<2>(const State<2>& state) {
+CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work) {
   CrackFrame frame;
-  frame.time = state.time;
-  frame.step = state.step;
+  frame.time = state.clock.time;
+  frame.step = state.clock.step;
   Field opening{"opening", "m", 1, {}}, sliding{"sliding", "m", 1, {}};
   for (const Crack<2>& leading : state.cracks.list) {
-    const Crack<2> crack = present_crack(state, leading);
+    const Crack<2> crack = present_crack(state, work, leading);
     frame.names.push_back(crack.name);
     for (std::size_t v = 0; v < crack.plane.size(); ++v) {
       const auto put = [](std::vector<double>& out, const Vec<2>& x) { out.insert(out.end(), {x[0], x[1], 0.}); };
@@ -269,11 +243,12 @@ CrackFrame sample_cracks<2>(const State<2>& state) {
     frame.begin.push_back(static_cast<std::int64_t>(frame.plane.size() / 3));
   }
   frame.fields = {opening, sliding};
-  if (std::any_of(state.tractions.begin(), state.tractions.end(), [](const auto& t) { return !t.history.empty(); })) {
+  if (std::any_of(state.cracks.list.begin(), state.cracks.list.end(), [](const Crack<2>& c) { return !c.traction.history.empty(); })) {
     Field normal{"traction_normal", "Pa", 1, {}}, shear{"traction_shear", "Pa", 1, {}}, damage{"damage", "1", 1, {}};
     for (std::size_t c = 0; c < state.cracks.size(); ++c) {
       for (std::size_t v = 0; v < state.cracks.list[c].plane.size(); ++v) {
-        const TractionHistory h = state.tractions[c].history.empty() ? TractionHistory{} : state.tractions[c].history[v];
+        const TractionHistory h =
+            state.cracks.list[c].traction.history.empty() ? TractionHistory{} : state.cracks.list[c].traction.history[v];
         normal.values.push_back(h.normal_traction);
         shear.values.push_back(h.shear_traction);
         damage.values.push_back(h.damage);
@@ -285,36 +260,36 @@ CrackFrame sample_cracks<2>(const State<2>& state) {
 }
 
 template <>
-CrackFrame sample_cracks<3>(const State<3>& state) {
+CrackFrame sample_cracks<3>(const State<3>& state, const StepWork<3>&) {
   CrackFrame frame;
-  frame.time = state.time;
-  frame.step = state.step;
+  frame.time = state.clock.time;
+  frame.step = state.clock.step;
   return frame;
 }
 
 template <int Dim>
-PointFrame sample_nodes(const State<Dim>& state, const Model<Dim>& model) {
+PointFrame sample_nodes(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model) {
   PointFrame frame;
-  frame.time = state.time;
-  frame.step = state.step;
+  frame.time = state.clock.time;
+  frame.step = state.clock.step;
   frame.dimension = Dim;
   for (int k = 0; k < Dim; ++k) frame.cell = std::fmax(frame.cell, model.grid.cell[k]);
   Field field{"cracks_across", "1", 1, {}}, mass{"mass", "kg", 1, {}}, momentum{"momentum", "kg m/s", 3, {}}, force{"force", "N", 3, {}};
-  for (std::size_t b = 0; b < state.blocks.size() && state.step > 0; ++b) {
-    const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  for (std::size_t b = 0; b < work.blocks.size() && work.nodes.momentum.size() > 0; ++b) {
+    const BlockLayers<Dim>& layers = work.nodes.layers[b];
     for (std::size_t l = 0; l < layers.node.size(); ++l) {
       if (model.is_rigid(layers.node[l].field)) continue;
       for (int n = 0; n < block_nodes<Dim>; ++n) {
         const std::size_t i = layers.slot(l, n);
-        const Pack p = state.nodes.momentum[i];
+        const Pack p = work.nodes.momentum[i];
         if (!(p[Dim] > 0)) continue;
-        const Vec<Dim> x = model.grid.node_position(state.blocks.list[b].node(n));
+        const Vec<Dim> x = model.grid.node_position(work.blocks.list[b].node(n));
         field.values.push_back(layers.node[l].cracks.size());
         mass.values.push_back(p[Dim]);
         for (int k = 0; k < 3; ++k) {
           frame.positions.push_back(k < Dim ? x[k % Dim] : 0.);
           momentum.values.push_back(k < Dim ? p[k] : 0.);
-          force.values.push_back(k < Dim ? state.nodes.force[i][k % Dim] : 0.);
+          force.values.push_back(k < Dim ? work.nodes.force[i][k % Dim] : 0.);
         }
       }
     }
@@ -323,33 +298,9 @@ PointFrame sample_nodes(const State<Dim>& state, const Model<Dim>& model) {
   return frame;
 }
 
-template <int Dim>
-std::uint64_t hash_state(const State<Dim>& state) {
-  Hash hash;
-  hash.add(state.time);
-  hash.add(state.step);
-  hash.add(state.particles.lead);
-  for (const std::uint32_t p : slots_by_id(state)) {
-    hash.add(state.particles.id[p]);
-    hash.add(state.particles.position(p).c);
-    hash.add(state.particles.velocity(p).c);
-    for (int c = 0; c < stress_size<Dim>; ++c) hash.add(state.particles.stress[p / lanes * stress_size<Dim> + c][p % lanes]);
-    if (state.particles.contact.size() > 0) hash.add(state.particles.contact[p]);
-    for (int c = 0; c < state.particles.history_size; ++c)
-      hash.add(state.particles.history[p / lanes * state.particles.history_size + c][p % lanes]);
-  }
-  for (const auto& crack : state.cracks.list) {
-    for (const auto* points : {&crack.plane, &crack.upper, &crack.lower}) {
-      for (const auto& x : *points) hash.add(x.c);
-    }
-  }
-  return hash.value();
-}
-
 #define CRAMPON_INSTANTIATE(DIM)                                                                                               \
   template PointFrame sample_particles<DIM>(const State<DIM>&, const Model<DIM>&, const std::vector<std::string>&, Precision); \
-  template PointFrame sample_nodes<DIM>(const State<DIM>&, const Model<DIM>&);                                                 \
-  template std::uint64_t hash_state<DIM>(const State<DIM>&);
+  template PointFrame sample_nodes<DIM>(const State<DIM>&, const StepWork<DIM>&, const Model<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE

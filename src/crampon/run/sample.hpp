@@ -3,7 +3,7 @@
 
 #include "crampon/output/frame.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -24,14 +24,10 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
                             Precision precision = Precision::full);
 
 template <int Dim>
-CrackFrame sample_cracks(const State<Dim>& state);
+CrackFrame sample_cracks(const State<Dim>& state, const StepWork<Dim>& work);
 
-/// Every velocity field of every node with mass, as of the last step.
+/// Every velocity field of every node with mass, as of the last step; nothing before the first.
 template <int Dim>
-PointFrame sample_nodes(const State<Dim>& state, const Model<Dim>& model);
-
-/// FNV-1a over time, particles in the order of ids and crack vertices, to the last bit.
-template <int Dim>
-std::uint64_t hash_state(const State<Dim>& state);
+PointFrame sample_nodes(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model);
 
 }  // namespace crampon

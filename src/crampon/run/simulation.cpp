@@ -20,6 +20,7 @@
 #include "crampon/step/advance.hpp"
 #include "crampon/step/face_loads.hpp"
 #include "crampon/step/ledger.hpp"
+#include "crampon/step/reorder.hpp"
 
 namespace crampon {
 
@@ -32,27 +33,29 @@ class Engine final : public Simulation {
     BuiltModel<Dim> built = build_model<Dim>(problem, threads);
     model_ = std::move(built.model);
     state_ = std::move(built.state);
+    work_ = std::move(built.work);
     if (time_.end) end_ = *time_.end;
-    time_step_ = time_.step ? *time_.step : time_.courant * stable_time_step();
+    state_.clock.time_step = time_.step ? *time_.step : time_.courant * stable_time_step();
     refuse_endless_run(problem);
-    history_.start(problem, std::move(built.cracked));
-    for (const Diagnostic& note : find_notes(Start<Dim>{problem, model_, state_, time_step_, end_time()}))
+    history_.start(problem, state_.observed);
+    for (const Diagnostic& note : find_notes(Start<Dim>{problem, model_, state_, state_.clock.time_step, end_time()}))
       notes_at_start_.push_back(note.text());
-    const StiffestVertex stiffest = find_stiffest_vertex<Dim, Shape>(state_, model_);
+    const StiffestVertex stiffest = find_stiffest_vertex<Dim, Shape>(state_, work_, model_);
     check_traction_step(stiffest);
-    if (!time_.step && stiffest.time_step < 0.7 * time_step_) {  // size() counts the steps in any case
+    if (!time_.step && stiffest.time_step < 0.7 * state_.clock.time_step) {  // size() counts the steps in any case
       notes_at_start_.push_back(
           fmt::format("the traction law of the crack \"{}\" asks for steps of {:.3g} s; without it they would be of {:.3g} s",
-                      state_.cracks.list[stiffest.crack].name, stiffest.time_step, time_step_));
+                      state_.cracks.list[stiffest.crack].name, stiffest.time_step, state_.clock.time_step));
     }
   }
 
   void step(double longest, const NextLook& next_look) override {
-    if (!time_.step && watches_wave_speed_ && state_.step % 10 == 0 && state_.step > 0) time_step_ = time_.courant * stable_time_step();
+    if (!time_.step && watches_wave_speed_ && state_.clock.step % 10 == 0 && state_.clock.step > 0)
+      state_.clock.time_step = time_.courant * stable_time_step();
     double dt = longest_step();
-    if (!time_.step && state_.traction_time_step < shortest_for_tractions * time_step_)
-      check_traction_step(find_stiffest_vertex<Dim, Shape>(state_, model_));
-    const double left = std::fmin(longest, end_time_or_infinity()) - state_.time;
+    if (!time_.step && state_.clock.traction_time_step < shortest_for_tractions * state_.clock.time_step)
+      check_traction_step(find_stiffest_vertex<Dim, Shape>(state_, work_, model_));
+    const double left = std::fmin(longest, end_time_or_infinity()) - state_.clock.time;
     bool hits = false;
     if (left > 0 && left <= dt * (1 + 1e-9)) {
       dt = left;
@@ -60,21 +63,21 @@ class Engine final : public Simulation {
     } else if (left > 0 && !time_.step && left < 2 * dt) {
       dt = 0.5 * left;  // no sliver of a step at the end
     }
-    advance<Dim, Shape>(state_, model_, dt, is_watched(dt, next_look) ? Watched::yes : Watched::no);
-    if (hits) state_.time = std::fmin(longest, end_time_or_infinity());  // to the bit
+    advance<Dim, Shape>(state_, work_, model_, dt, is_watched(dt, next_look) ? Watched::yes : Watched::no);
+    if (hits) state_.clock.time = std::fmin(longest, end_time_or_infinity());  // to the bit
     look_for_rest();
   }
 
-  double time() const override { return state_.time; }
-  std::int64_t steps_done() const override { return state_.step; }
+  double time() const override { return state_.clock.time; }
+  std::int64_t steps_done() const override { return state_.clock.step; }
   bool finished() const override {
-    return rests() || (time_.steps && state_.step >= *time_.steps) || (time_.end && state_.time >= *time_.end * (1 - 1e-14));
+    return rests() || (time_.steps && state_.clock.step >= *time_.steps) || (time_.end && state_.clock.time >= *time_.end * (1 - 1e-14));
   }
-  double end_time() const override { return time_.end ? end_ : static_cast<double>(*time_.steps) * time_step_; }
+  double end_time() const override { return time_.end ? end_ : static_cast<double>(*time_.steps) * state_.clock.time_step; }
 
   SimulationSize size() const override {
     SimulationSize s;
-    s.particles = static_cast<std::int64_t>(state_.particle_count);
+    s.particles = static_cast<std::int64_t>(state_.order.particle_count);
     s.cells = 1;
     for (int k = 0; k < Dim; ++k) s.cells *= model_.grid.cells[k];
     s.active_cells = active_cells();
@@ -95,7 +98,7 @@ class Engine final : public Simulation {
     constexpr int times = 1000;
     for (int i = 0; i <= times; ++i) {
       const double t = end_time() * i / times;
-      const std::vector<Vec<Dim>> now = total_loads(state_, model_, t);
+      const std::vector<Vec<Dim>> now = total_loads(state_, work_, model_, t);
       for (std::size_t l = 0; l < out.size(); ++l) {
         Vec<Dim> largest;
         for (std::size_t k = 0; k < out[l].force.size(); ++k) largest[k] = out[l].force[k];
@@ -113,19 +116,26 @@ class Engine final : public Simulation {
   PointFrame particles(const std::vector<std::string>& names, Precision precision) const override {
     return sample_particles(state_, model_, names, precision);
   }
-  CrackFrame cracks() const override { return sample_cracks(state_); }
-  PointFrame nodes() const override { return sample_nodes(state_, model_); }
+  CrackFrame cracks() const override { return sample_cracks(state_, work_); }
+  PointFrame nodes() const override { return sample_nodes(state_, work_, model_); }
 
   std::vector<HistoryColumn> history_columns() const override { return history_.columns(); }
   std::vector<double> history_row() const override { return history_.row(); }
   std::vector<HistoryColumn> event_columns() const override { return event_columns_of<Dim>(); }
-  std::size_t event_count() const override { return state_.events.size(); }
-  std::vector<double> event_row(std::size_t event) const override { return event_row_of(state_.events[event]); }
+  std::size_t event_count() const override { return state_.ledger.failures.size(); }
+  std::vector<double> event_row(std::size_t event) const override { return event_row_of(state_.ledger.failures[event]); }
 
-  std::uint64_t state_hash() const override { return hash_state(state_); }
+  std::uint64_t state_hash() const override { return hash_state(state_, model_.threads); }
+  SavedState save() const override { return save_state(state_); }
+  void load(const SavedState& saved) override {
+    load_state(state_, saved);
+    if (!state_.order.blocks.empty()) lay_out_blocks<Dim, Shape>(state_, work_, model_);
+  }
+  std::int64_t last_reordering() const override { return state_.order.step; }
+
   std::vector<PhaseTime> phases() const override {
     std::vector<PhaseTime> out;
-    for (const Phase& p : state_.phases) out.push_back({p.name, p.seconds});
+    for (const Phase& p : work_.phases) out.push_back({p.name, p.seconds});
     return out;
   }
   std::vector<std::string> notes_at_start() const override { return notes_at_start_; }
@@ -134,78 +144,82 @@ class Engine final : public Simulation {
     if (rests())
       out.push_back(fmt::format(
           "the run ended at t = {:.6g} s, at rest: kinetic energy stayed under {:g} of the strain energy for {:g} s (time.stop_at_rest)",
-          state_.time, time_.stop_at_rest->ratio, time_.stop_at_rest->period));
-    if (state_.most_crowded_nodes > 0)
-      out.push_back(fmt::format("up to {} nodes saw more than two cracks at once", state_.most_crowded_nodes));
-    if (state_.most_unsolved_nodes > 0) {
+          state_.clock.time, time_.stop_at_rest->ratio, time_.stop_at_rest->period));
+    if (state_.ledger.most_crowded_nodes > 0)
+      out.push_back(fmt::format("up to {} nodes saw more than two cracks at once", state_.ledger.most_crowded_nodes));
+    if (state_.ledger.most_unsolved_nodes > 0) {
       out.push_back(fmt::format(
           "contact did not converge at up to {} nodes of a step; smaller cells where cracks or several bodies meet usually help",
-          state_.most_unsolved_nodes));
+          state_.ledger.most_unsolved_nodes));
     }
-    if (time_.step && *time_.step > state_.least_traction_time_step) {
+    if (time_.step && *time_.step > state_.clock.least_traction_time_step) {
       out.push_back(
           fmt::format("the time step of {:.3g} s is longer than the {:.3g} s that the stiffest traction law bears: the run may be unstable",
-                      *time_.step, state_.least_traction_time_step));
+                      *time_.step, state_.clock.least_traction_time_step));
     }
-    if (!state_.events.empty())
-      out.push_back(fmt::format("traction laws failed at {} crack vertices; see events.csv", state_.events.size()));
-    if (state_.removed > 0) out.push_back(fmt::format("{} particles left the grid and were removed", state_.removed));
+    if (!state_.ledger.failures.empty())
+      out.push_back(fmt::format("traction laws failed at {} crack vertices; see events.csv", state_.ledger.failures.size()));
+    if (state_.ledger.removed > 0) out.push_back(fmt::format("{} particles left the grid and were removed", state_.ledger.removed));
     if (auto note = tell_large_stretch(state_, model_)) out.push_back(std::move(*note));
     return out;
   }
 
  private:
   /// Is all at rest, and has been for the period asked for?
-  bool rests() const { return time_.stop_at_rest && state_.time - rests_since_ >= time_.stop_at_rest->period * (1 - 1e-12); }
+  bool rests() const {
+    return time_.stop_at_rest && state_.clock.time - state_.clock.rests_since >= time_.stop_at_rest->period * (1 - 1e-12);
+  }
   /// Energies are sums over all particles: they are looked at twenty times in a period.
   void look_for_rest() {
-    if (!time_.stop_at_rest || state_.time < next_look_) return;
-    next_look_ = state_.time + time_.stop_at_rest->period / 20;
+    if (!time_.stop_at_rest || state_.clock.time < state_.clock.next_look_for_rest) return;
+    state_.clock.next_look_for_rest = state_.clock.time + time_.stop_at_rest->period / 20;
     const auto sums = sum_particles(state_, model_);
     if (!(sums.kinetic <= time_.stop_at_rest->ratio * sums.strain)) {
-      rests_since_ = std::numeric_limits<double>::infinity();
-    } else if (rests_since_ > state_.time) {
-      rests_since_ = state_.time;
+      state_.clock.rests_since = std::numeric_limits<double>::infinity();
+    } else if (state_.clock.rests_since > state_.clock.time) {
+      state_.clock.rests_since = state_.clock.time;
     }
   }
   /// A sum of time steps may fall short of the time of a look by round-off.
   bool is_watched(double dt, const NextLook& look) const {
-    const double end = state_.time + dt * (1 + 1e-4);
-    const bool last = end >= end_time_or_infinity() || (time_.steps && state_.step + 1 >= *time_.steps);
-    return last || state_.step + 1 >= look.step || end >= look.time;
+    const double end = state_.clock.time + dt * (1 + 1e-4);
+    const bool last = end >= end_time_or_infinity() || (time_.steps && state_.clock.step + 1 >= *time_.steps);
+    return last || state_.clock.step + 1 >= look.step || end >= look.time;
   }
 
   double end_time_or_infinity() const { return time_.end ? end_ : std::numeric_limits<double>::infinity(); }
 
-  double longest_step() const { return time_.step ? time_step_ : std::fmin(time_step_, state_.traction_time_step); }
+  double longest_step() const {
+    return time_.step ? state_.clock.time_step : std::fmin(state_.clock.time_step, state_.clock.traction_time_step);
+  }
 
   /// A law that forces far shorter steps than the material does would leave a run that never ends.
   void check_traction_step(const StiffestVertex& stiffest) const {
-    if (time_.step || !(stiffest.time_step < shortest_for_tractions * time_step_)) return;
+    if (time_.step || !(stiffest.time_step < shortest_for_tractions * state_.clock.time_step)) return;
     if constexpr (Dim == 2) {
       const Crack<2>& crack = state_.cracks.list[stiffest.crack];
       const Vec<2>& x = crack.plane[stiffest.vertex];
       throw RunError(fmt::format(
           "step {} (t = {:.6g} s): the traction law of the crack \"{}\" at ({:.6g}, {:.6g}) m bears steps of {:.3g} s at most, less than a "
           "thousandth of the {:.3g} s without it; lower its stiffness: 10 to 50 times E over the size of a cell is enough",
-          state_.step + 1, state_.time, crack.name, x[0], x[1], stiffest.time_step, time_step_));
+          state_.clock.step + 1, state_.clock.time, crack.name, x[0], x[1], stiffest.time_step, state_.clock.time_step));
     }
   }
 
   /// Steps are counted, and none may vanish beside the time that has passed. A run of so many steps would not end in a lifetime.
   void refuse_endless_run(const Problem& problem) const {
     constexpr double most_steps = 1e12;
-    if (!time_.end || end_ / time_step_ <= most_steps) return;
-    std::string why = fmt::format("the time step is {:.3g} s", time_step_);
+    if (!time_.end || end_ / state_.clock.time_step <= most_steps) return;
+    std::string why = fmt::format("the time step is {:.3g} s", state_.clock.time_step);
     double fastest = 0;
     for (const MaterialInput& in : problem.materials) {
       const double speed = in.law->wave_speed(model_.stress_state);
       if (time_.step || speed < fastest) continue;
       fastest = speed;
       why = fmt::format("waves in \"{}\" run at {:.3g} m/s through cells of {:.3g} m, so the time step is {:.3g} s", in.name, speed,
-                        model_.grid.smallest_cell(), time_step_);
+                        model_.grid.smallest_cell(), state_.clock.time_step);
     }
-    throw InputError({{time_.at("end"), fmt::format("{:.3g} s take {:.3g} time steps", end_, end_ / time_step_), why,
+    throw InputError({{time_.at("end"), fmt::format("{:.3g} s take {:.3g} time steps", end_, end_ / state_.clock.time_step), why,
                        time_.step ? "correct end or step" : "correct end, the material or the cells"}});
   }
 
@@ -218,7 +232,7 @@ class Engine final : public Simulation {
       fastest = std::fmax(fastest, m.law->wave_speed(model_.stress_state));
       watches_wave_speed_ = watches_wave_speed_ || m.law->wave_speed_changes();
     }
-    for (const Run& run : state_.blocks.runs) {
+    for (const Run& run : state_.order.runs) {
       const MaterialLaw& law = *model_.materials[run.material].law;
       if (!law.wave_speed_changes()) continue;
       for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
@@ -248,13 +262,12 @@ class Engine final : public Simulation {
   TimeInput time_;
   Model<Dim> model_;
   State<Dim> state_;
-  HistorySampler<Dim> history_{state_, model_};
-  double time_step_ = 0, end_ = 0;
+  StepWork<Dim> work_;
+  HistorySampler<Dim> history_{state_, work_, model_};
+  double end_ = 0;
   /// Of the step that waves allow: what traction laws may ask for at least.
   static constexpr double shortest_for_tractions = 1e-3;
   std::vector<std::string> notes_at_start_;
-  double next_look_ = 0;                                          ///< for rest, s
-  double rests_since_ = std::numeric_limits<double>::infinity();  ///< at every look, s
   bool watches_wave_speed_ = false;
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "crampon/core/saved_state.hpp"
 #include "crampon/input/problem.hpp"
 #include "crampon/output/frame.hpp"
 
@@ -81,8 +82,15 @@ class Simulation {
   virtual std::size_t event_count() const { return 0; }
   virtual std::vector<double> event_row(std::size_t /*event*/) const { return {}; }
 
-  /// Hash of positions, velocities, stresses and crack vertices to the last bit: equal for any number of threads.
+  /// Hash of all on which the further course depends, to the last bit: equal for any number of threads.
   virtual std::uint64_t state_hash() const = 0;
+  /// A copy of the state, as named arrays: all that changes during a run (state/state.hpp).
+  virtual SavedState save() const = 0;
+  /// Takes up a state that a simulation of the same problem had; what follows is equal to the bit. Throws std::runtime_error that names what is
+  /// missing or of another kind; the simulation is then of no further use.
+  virtual void load(const SavedState& saved) = 0;
+  /// The step that began with the last re-ordering of particles; -1: none did.
+  virtual std::int64_t last_reordering() const = 0;
   virtual std::vector<PhaseTime> phases() const = 0;
   /// What the input says that is legal but probably not meant (run/notes/notes.hpp), one text each with its place: worth telling before the
   /// first step.

@@ -56,7 +56,7 @@ void keep_undeformed(const State<Dim>& state, Model<Dim>& model, std::size_t cou
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
   const Particles<Dim>& particles = state.particles;
   model.undeformed.resize(count);
-  for (const Run& run : state.blocks.runs) {
+  for (const Run& run : state.order.runs) {
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
       Pack F[Dim * Dim];
       model.materials[run.material].law->deformation(model.stress_state, Dim, &particles.stress[k * stress_size<Dim>],

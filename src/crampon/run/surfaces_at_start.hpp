@@ -3,8 +3,8 @@
 
 #include "crampon/input/problem.hpp"
 #include "crampon/run/build_bodies.hpp"
+#include "crampon/state/state.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
 
 namespace crampon {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crampon/state/grid.hpp"
+#include "crampon/state/particle_order.hpp"
 
 namespace crampon {
 
@@ -27,12 +28,6 @@ struct TileBox {
       high[k] = fresh ? static_cast<std::int16_t>(i + 1) : std::max<std::int16_t>(high[k], i + 1);
     }
   }
-};
-
-/// Particles of one block and one material: the unit of dispatch. Padded to whole packs.
-struct Run {
-  std::uint32_t first_pack = 0, end_pack = 0;
-  std::uint32_t material = 0;
 };
 
 inline constexpr std::uint32_t no_block = 0xffffffffu;
@@ -61,8 +56,7 @@ struct Block {
 
 template <int Dim>
 struct Blocks {
-  std::vector<Block<Dim>> list;  ///< in the order of their number in the grid
-  std::vector<Run> runs;
+  std::vector<Block<Dim>> list;          ///< in the order of their number in the grid
   std::vector<std::uint32_t> of_number;  ///< block number in the grid -> index in list, or no_block
   std::size_t size() const { return list.size(); }
 };

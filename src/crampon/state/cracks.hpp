@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "crampon/core/members.hpp"
 #include "crampon/core/vector.hpp"
 #include "crampon/state/layers.hpp"
+#include "crampon/state/traction_history.hpp"
 
 namespace crampon {
 
@@ -18,9 +20,35 @@ struct Carrier {
   std::uint32_t particle = 0;  ///< id
   std::uint8_t flip = 0;       ///< bit k: it is the particle's image in a mirror, and component k of its displacement is reversed
   double weight = 0;           ///< of its displacement in that of the point
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [particle, flip, weight] = self;
+    visit(Member{"particle"}, particle);
+    visit(Member{"flip"}, flip);
+    visit(Member{"weight"}, weight);
+  }
 };
 /// Per vertex. The weights of a point add up to 1; a point without carriers goes with the plane.
 using Carriers = std::vector<std::vector<Carrier>>;
+
+/// Tractions on one crack, per vertex; empty without a law.
+template <int Dim>
+struct CrackTractionState {
+  std::vector<TractionHistory> history;
+  std::vector<Vec<Dim>> force;  ///< on the upper surface in the next step, N
+  std::vector<double> stored;   ///< J/m2
+  std::vector<bool> between;    ///< there was material on both sides in the last step
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [history, force, stored, between] = self;
+    visit(Member{"history"}, history);
+    visit(Member{"force", "N"}, force);
+    visit(Member{"stored", "J/m2"}, stored);
+    visit(Member{"between"}, between);
+  }
+};
 
 /// One crack. In 2D the vertices of facet k are k and k + 1 of a directed polyline; "above" is left of it (conventions, words and signs).
 template <int Dim>
@@ -38,6 +66,26 @@ struct Crack {
   std::array<double, 2> extension{};
   /// Bit k of the start and of the end: it lies on a mirror across axis k, behind which the crack goes on as its image.
   std::array<std::uint8_t, 2> mirrored{};
+  CrackTractionState<Dim> traction;
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [name, fixed, closed, plane, upper, lower, original, facets, upper_carriers, lower_carriers, extension, mirrored, traction] =
+        self;
+    visit(Member{"name"}, name);
+    visit(Member{"fixed"}, fixed);
+    visit(Member{"closed"}, closed);
+    visit(Member{"plane", "m"}, plane);
+    visit(Member{"upper", "m"}, upper);
+    visit(Member{"lower", "m"}, lower);
+    visit(Member{"original", "m"}, original);
+    visit(Member{"facets"}, facets);
+    visit(Member{"upper_carriers"}, upper_carriers);
+    visit(Member{"lower_carriers"}, lower_carriers);
+    visit(Member{"extension", "m"}, extension);
+    visit(Member{"mirrored"}, mirrored);
+    visit(Member{"traction"}, traction);
+  }
 };
 
 template <int Dim>
@@ -45,6 +93,12 @@ struct Cracks {
   std::vector<Crack<Dim>> list;
   bool empty() const { return list.empty(); }
   std::size_t size() const { return list.size(); }
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [list] = self;
+    visit(Member{"list"}, list);
+  }
 };
 
 /// Unit normal of a segment, from above to below: (dy, -dx)/L.

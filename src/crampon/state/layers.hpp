@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "crampon/core/members.hpp"
+
 namespace crampon {
 
 using CrackId = std::uint32_t;
@@ -60,6 +62,13 @@ class Signature {
   }
   auto operator<=>(const Signature& b) const = default;
   bool operator==(const Signature& b) const { return std::equal(begin(), end(), b.begin(), b.end()); }  // most hold none or one
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [size, cracks] = self;
+    visit(Member{"size"}, size);
+    visit(Member{"cracks"}, cracks);
+  }
 
  private:
   std::uint32_t size_ = 0;  // first: shorter signatures sort first, {} before all

@@ -1,5 +1,5 @@
 #pragma once
-/// What lives on nodes and tiles during one step. Nothing here survives a step but the contact memory (contact/memory.hpp).
+/// What lives on nodes and tiles during one step. Nothing here survives a step but the contact memory (state/contact_memory.hpp).
 
 #include <concepts>
 #include <cstdint>

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "crampon/core/aligned_array.hpp"
+#include "crampon/core/members.hpp"
 #include "crampon/core/pack.hpp"
 #include "crampon/core/vector.hpp"
 
@@ -22,6 +23,15 @@ inline constexpr int motion_packs = Dim == 2 ? 1 : 2;
 template <int Dim>
 inline constexpr int domain_size = Dim* Dim;
 
+/// Layouts of arrays of particles. [particle][width]
+struct PerParticle {
+  std::size_t width = 1;
+};
+/// [pack][width], with lanes over the particles of the pack.
+struct PerPack {
+  std::size_t width = 1;
+};
+
 inline constexpr std::uint32_t padding_id = std::numeric_limits<std::uint32_t>::max();
 
 /// All arrays have a multiple of four particles; padding particles (id == padding_id) have no mass and sit on a real one.
@@ -31,8 +41,10 @@ template <int Dim>
 struct Particles {
   std::size_t packs = 0;
   int history_size = 0;               ///< Packs of material history per pack
+  bool remembers_contact = false;     ///< there is an array of it
+  bool has_domains = false;           ///< ... of domains that stretch
   double lead = 0;                    ///< of positions before the present time, s
-  bool watched = false;               ///< moved_with belongs to the last step
+  bool watched = false;               ///< there is moved_with, of the last step
   AlignedArray<Pack> motion;          ///< [particle][motion_packs]: m, m/s
   AlignedArray<Pack> mass_volume;     ///< [pack][2]: mass kg, initial volume m3
   AlignedArray<Pack> stress;          ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
@@ -46,22 +58,44 @@ struct Particles {
 
   std::size_t size() const { return packs * lanes; }
 
-  void allocate(std::size_t pack_count, int history_packs, bool remembers_contact, bool has_domains) {
-    packs = pack_count;
-    history_size = history_packs;
-    motion.resize_discarding(size() * motion_packs<Dim>);
-    mass_volume.resize_discarding(packs * 2);
-    stress.resize_discarding(packs * stress_size<Dim>);
-    history.resize_discarding(packs * history_size);
-    domain.resize_discarding(has_domains ? packs * domain_size<Dim> : 0);
-    original.resize_discarding(size());
-    contact.resize_discarding(remembers_contact ? size() : 0);
-    id.resize_discarding(size());
-    body.resize_discarding(size());
+  /// visit(member, array, layout) for every array: who makes, moves, counts, hashes or keeps them walks this list. A width of 0: there is none.
+  template <class Self, class Visit>
+  static void for_arrays(Self& self, Visit&& visit) {
+    visit(Member{"motion", "m, m/s"}, self.motion, PerParticle{motion_packs<Dim>});
+    visit(Member{"mass_volume", "kg, m3"}, self.mass_volume, PerPack{2});
+    visit(Member{"stress", "Pa"}, self.stress, PerPack{stress_size<Dim>});
+    visit(Member{"history", "of the law"}, self.history, PerPack{static_cast<std::size_t>(self.history_size)});
+    visit(Member{"domain", "m"}, self.domain, PerPack{self.has_domains ? std::size_t{domain_size<Dim>} : 0});
+    visit(Member{"original", "m"}, self.original, PerParticle{});
+    visit(Member{"contact", "of the law"}, self.contact, PerParticle{self.remembers_contact ? 1u : 0u});
+    visit(Member{"moved_with", "m/s", Use::display}, self.moved_with, PerParticle{self.watched ? 1u : 0u});
+    visit(Member{"id"}, self.id, PerParticle{});
+    visit(Member{"body"}, self.body, PerParticle{});
   }
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [packs, history_size, remembers_contact, has_domains, lead, watched, motion, mass_volume, stress, history, domain, original,
+           contact, moved_with, id, body] = self;
+    visit(Member{"packs"}, packs);
+    visit(Member{"history_size"}, history_size);
+    visit(Member{"remembers_contact"}, remembers_contact);
+    visit(Member{"has_domains"}, has_domains);
+    visit(Member{"lead", "s"}, lead);
+    visit(Member{"watched", "1", Use::display}, watched);
+    for_arrays(self, [&](const Member& m, auto& array, auto) { visit(m, array); });
+  }
+
+  /// Room for `packs`; what was there is lost.
+  void allocate() {
+    for_arrays(*this, [&](const Member&, auto& array, auto layout) { array.resize_discarding(count(layout)); });
+  }
+  /// Records in an array of some layout.
+  std::size_t count(PerParticle layout) const { return size() * layout.width; }
+  std::size_t count(PerPack layout) const { return packs * layout.width; }
   std::size_t bytes() const {
-    return motion.bytes() + mass_volume.bytes() + stress.bytes() + history.bytes() + domain.bytes() + original.bytes() + contact.bytes() +
-           moved_with.bytes() + id.bytes() + body.bytes();
+    std::size_t sum = 0;
+    for_arrays(*this, [&](const Member&, const auto& array, auto) { sum += array.bytes(); });
+    return sum;
   }
 
   bool is_padding(std::size_t p) const { return id[p] == padding_id; }
@@ -108,7 +142,6 @@ struct Particles {
     v[1] = Dim == 2 ? d : b;
     if constexpr (Dim == 3) v[2] = c;
   }
-  bool has_domains() const { return domain.size() > 0; }
   /// {m v, m} of particle p, the mass in lane Dim (N03 Eq. 26).
   Pack momentum_record(std::size_t p, double mass) const {
     if constexpr (Dim == 2) {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "crampon/core/members.hpp"
 #include "crampon/core/vector.hpp"
 
 namespace crampon {
@@ -48,6 +49,16 @@ struct RigidPose {
     }
     return v;
   }
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [centre, pivot, turn, velocity, spin] = self;
+    visit(Member{"centre", "m"}, centre);
+    visit(Member{"pivot", "m"}, pivot);
+    visit(Member{"turn"}, turn);
+    visit(Member{"velocity", "m/s"}, velocity);
+    visit(Member{"spin", "rad/s"}, spin);
+  }
 };
 
 /// A rigid body over a step. `start` and `end` have the velocities of the start and the end of the step, and places that lead these times as
@@ -56,6 +67,15 @@ template <int Dim>
 struct RigidMotion {
   RigidPose<Dim> start, end;
   RigidPose<Dim> present, present_end;  ///< places at the start and the end of the step
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [start, end, present, present_end] = self;
+    visit(Member{"start"}, start);
+    visit(Member{"end"}, end);
+    visit(Member{"present"}, present);
+    visit(Member{"present_end"}, present_end);
+  }
 };
 
 /// What bodies that deform feel from a rigid one.
@@ -63,6 +83,13 @@ template <int Dim>
 struct RigidReaction {
   Vec<Dim> force;  ///< on them, N
   Spin torque;     ///< of that force about the body's centre, N m
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [force, torque] = self;
+    visit(Member{"force", "N", Use::display}, force);
+    visit(Member{"torque", "N m", Use::display}, torque);
+  }
 };
 
 }  // namespace crampon

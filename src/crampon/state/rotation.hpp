@@ -66,12 +66,49 @@ inline NodalVector<Dim> as_nodal(const Vec<Dim>& a) {
   return out;
 }
 
+/// No piece: momenta are those of N03 Eq. 26 alone.
+inline constexpr std::uint32_t no_piece = 0xffffffffu;
+/// Of a field: particles say of which piece they are. Of a node: it sees particles of several, and has no part in the rotation of any.
+inline constexpr std::uint32_t several_pieces = 0xfffffffeu;
+
 /// A piece of material: particles that hang together at the start, without a crack between, in one material field or in several that are
 /// bonded to each other.
 template <int Dim>
+struct Piece {
+  std::array<bool, 3> about{};  ///< the axes about which it may turn: those that no symmetry plane forbids
+  Vec<Dim> origin;              ///< of first moments: the centre of its field at the start, m
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [about, origin] = self;
+    visit(Member{"about"}, about);
+    visit(Member{"origin", "m"}, origin);
+  }
+};
+
+/// All pieces: found before the first step, and kept.
+template <int Dim>
+struct Pieces {
+  std::vector<Piece<Dim>> list;
+  std::vector<std::uint32_t> of_field;     ///< per material field
+  std::vector<std::uint32_t> of_particle;  ///< by number of the particle; empty where no field has several pieces
+
+  bool any() const { return !list.empty(); }
+  bool several() const { return !of_particle.empty(); }
+  std::uint32_t in_field(std::size_t field) const { return any() ? of_field[field] : no_piece; }
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [list, of_field, of_particle] = self;
+    visit(Member{"list"}, list);
+    visit(Member{"of_field"}, of_field);
+    visit(Member{"of_particle"}, of_particle);
+  }
+};
+
+/// How a piece turns in one step.
+template <int Dim>
 struct PieceRotation {
-  std::array<bool, 3> about{};              ///< the axes about which it may turn: those that no symmetry plane forbids
-  Vec<Dim> origin;                          ///< of first moments: the centre of its field at the start, m
   Vec<Dim> centre;                          ///< of mass, m
   std::array<Vec<3>, 3> inverse_inertia{};  ///< about the centre, rows, 1/(kg m2)
   Spin spin;                                ///< of its particles as if they were rigid, at the start of the step, rad/s
@@ -83,22 +120,6 @@ struct PieceRotation {
   Spin rotation_of(const Vec<3>& moment) const {
     return {{dot(inverse_inertia[0], moment), dot(inverse_inertia[1], moment), dot(inverse_inertia[2], moment)}};
   }
-};
-
-/// No piece: momenta are those of N03 Eq. 26 alone.
-inline constexpr std::uint32_t no_piece = 0xffffffffu;
-/// Of a field: particles say of which piece they are. Of a node: it sees particles of several, and has no part in the rotation of any.
-inline constexpr std::uint32_t several_pieces = 0xfffffffeu;
-
-template <int Dim>
-struct Rotations {
-  std::vector<PieceRotation<Dim>> of_piece;
-  std::vector<std::uint32_t> piece_of_field;     ///< per material field
-  std::vector<std::uint32_t> piece_of_particle;  ///< by number of the particle; empty where no field has several pieces
-
-  bool any() const { return !of_piece.empty(); }
-  bool several() const { return !piece_of_particle.empty(); }
-  std::uint32_t in_field(std::size_t field) const { return any() ? piece_of_field[field] : no_piece; }
 };
 
 /// Of which piece the particles about a node are; adds up over tiles.

@@ -58,12 +58,12 @@ void find_drift(ContactGroup<Dim>* groups, const ContactPair<Dim>* pairs, int pa
 
 /// What particles are to add to their memory of contact waits on the nodes (forget_gains in step/meet_faces.cpp): {gain, 1} where there is contact.
 template <int Dim>
-void put_gain(State<Dim>& state, std::size_t b, const ContactNode<Dim>& node, const ContactPair<Dim>& pair) {
+void put_gain(StepWork<Dim>& work, std::size_t b, const ContactNode<Dim>& node, const ContactPair<Dim>& pair) {
   if (!needs_history(*pair.law) || (pair.state == ContactState::open && !holds_as_interface(pair))) return;
-  const ContactNodes<Dim>& contacts = state.scratch[b].contact;
+  const ContactNodes<Dim>& contacts = work.scratch[b].contact;
   for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
     if (pair.a & only(contacts.fields[f].group))
-      state.nodes.contact[state.nodes.layers[b].slot(contacts.fields[f].layer, node.node)].r[0] = Pack{pair.history_gain, 1., 0., 0.};
+      work.nodes.contact[work.nodes.layers[b].slot(contacts.fields[f].layer, node.node)].r[0] = Pack{pair.history_gain, 1., 0., 0.};
   }
 }
 
@@ -81,16 +81,17 @@ std::vector<const FaceGroup<Dim>*> groups_at_faces(const BlockScratch<Dim>& scra
 }  // namespace
 
 template <int Dim>
-void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, ContactTask task, double dt) {
-  ContactNodes<Dim>& contacts = state.scratch[b].contact;
+void adjust_contact(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, ContactTask task) {
+  const double dt = work.now.dt;
+  ContactNodes<Dim>& contacts = work.scratch[b].contact;
   const bool remembers = task == ContactTask::four && state.particles.contact.size() > 0;
   if (contacts.nodes.empty()) return;
-  Nodes<Dim>& nodes = state.nodes;
-  BlockLedger<Dim>& ledger = state.scratch[b].ledger;
+  Nodes<Dim>& nodes = work.nodes;
+  BlockLedger<Dim>& ledger = work.scratch[b].ledger;
   ContactRules rules = contact_rules(model, task, dt);
-  const bool re_extrapolates = model.transfer_in(state.step).re_extrapolates;
+  const bool re_extrapolates = model.transfer_in(state.clock.step).re_extrapolates;
   std::vector<Vec<Dim>> before, given;
-  const std::vector<const FaceGroup<Dim>*> at_face = groups_at_faces(state.scratch[b]);
+  const std::vector<const FaceGroup<Dim>*> at_face = groups_at_faces(work.scratch[b]);
   for (ContactNode<Dim>& node : contacts.nodes) {
     ContactGroup<Dim>* groups = contacts.groups.data() + node.first_group;
     const auto first_at_face = at_face.begin() + node.first_group;
@@ -104,10 +105,10 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
       groups[g].p = groups[g].dp = {};
     }
     for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
-      groups[contacts.fields[f].group].p += momentum_of(nodes, state.nodes.layers[b].slot(contacts.fields[f].layer, node.node));
+      groups[contacts.fields[f].group].p += momentum_of(nodes, work.nodes.layers[b].slot(contacts.fields[f].layer, node.node));
     }
-    const Vec<Dim> x_i = model.grid.node_position(state.blocks.list[b].node(node.node));
-    rules.fixed_axes = fixes_before_contact(model, task) ? fixed_axes(state, b, node.node) : 0u;
+    const Vec<Dim> x_i = model.grid.node_position(work.blocks.list[b].node(node.node));
+    rules.fixed_axes = fixes_before_contact(model, task) ? fixed_axes(work, b, node.node) : 0u;
     if (pair_count > 0) {
       before.clear();
       for (int g = 0; g < group_count; ++g) before.push_back(groups[g].velocity());
@@ -143,7 +144,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
         // Without Task 6 the velocity of the particles at the end is not known: that at the start stands for both.
         if (!re_extrapolates) rubbed += friction_work(pairs[q], pairs[q].w_start);
         close_pair(groups, pairs[q], dt, ledger);
-        if (remembers) put_gain(state, b, node, pairs[q]);
+        if (remembers) put_gain(work, b, node, pairs[q]);
       }
       ledger.contact_loss += taken - rubbed;
       ledger.friction_loss += rubbed;
@@ -153,7 +154,7 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
     }
     for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
       // Every field of a group takes the group's velocity (bonded: N13's stick) and its share, by mass, of the group's impulse.
-      const std::size_t i = state.nodes.layers[b].slot(contacts.fields[f].layer, node.node);
+      const std::size_t i = work.nodes.layers[b].slot(contacts.fields[f].layer, node.node);
       const ContactGroup<Dim>& group = groups[contacts.fields[f].group];
       if (group.rigid) continue;
       const double fraction = nodes.momentum[i][Dim] / group.m;
@@ -169,7 +170,8 @@ void adjust_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b, C
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM) template void adjust_contact<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, ContactTask, double);
+#define CRAMPON_INSTANTIATE(DIM) \
+  template void adjust_contact<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t, ContactTask);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE

@@ -1,8 +1,8 @@
 #include "crampon/step/advance.hpp"
 
-#include <chrono>
-
 #include "crampon/core/parallel.hpp"
+#include "crampon/step/adjust_contact.hpp"
+#include "crampon/step/assemble_momenta.hpp"
 #include "crampon/step/assign_velocity_fields.hpp"
 #include "crampon/step/boundary.hpp"
 #include "crampon/step/crack_carriers.hpp"
@@ -10,6 +10,8 @@
 #include "crampon/step/face_loads.hpp"
 #include "crampon/step/filter_velocities.hpp"
 #include "crampon/step/find_contacts.hpp"
+#include "crampon/step/find_face_nodes.hpp"
+#include "crampon/step/find_shared_nodes.hpp"
 #include "crampon/step/guard.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/lead_positions.hpp"
@@ -18,201 +20,251 @@
 #include "crampon/step/meet_faces.hpp"
 #include "crampon/step/mirrored_forces.hpp"
 #include "crampon/step/move_cracks.hpp"
-#include "crampon/step/nodes_phase.hpp"
-#include "crampon/step/project.hpp"
+#include "crampon/step/move_particles.hpp"
+#include "crampon/step/prescribe.hpp"
+#include "crampon/step/project_contact_sums.hpp"
+#include "crampon/step/project_forces.hpp"
 #include "crampon/step/project_loads.hpp"
+#include "crampon/step/project_momentum.hpp"
 #include "crampon/step/reorder.hpp"
 #include "crampon/step/rigid_motion.hpp"
 #include "crampon/step/rotation.hpp"
 #include "crampon/step/take_velocities.hpp"
-#include "crampon/step/update_particles.hpp"
+#include "crampon/step/update_momenta.hpp"
+#include "crampon/step/update_velocities.hpp"
 
 namespace crampon {
 
 namespace {
 
-/// Runs the lines of a step, timed under the names that users see in the run summary.
+/// When lines run.
 template <int Dim>
-class Phases {
- public:
-  Phases(State<Dim>& state, int threads) : state_(state), threads_(threads) {}
+struct Whether {
+  using S = const State<Dim>&;
+  using W = const StepWork<Dim>&;
+  using M = const Model<Dim>&;
+  static bool order_is_old(S s, W, M) { return s.order.must_reorder; }
+  static bool it_is_the_first_step(S s, W, M) { return s.clock.step == 0; }
+  static bool positions_lead_further(S, W w, M) { return w.now.further != 0; }
+  static bool rigid_bodies_move(S, W, M m) { return !m.rigid_bodies.empty(); }
+  static bool rigid_bodies_prescribe(S, W, M m) { return m.any_prescribing_body(); }
+  static bool rigid_faces_meet(S, W, M m) { return m.any_rigid_face(); }
+  static bool rigid_faces_meet_anew(S, W w, M m) { return w.now.transfer.re_extrapolates && m.any_rigid_face(); }
+  static bool bodies_meet(S, W, M m) { return m.any_contact(); }
+  static bool faces_are_loaded(S, W, M m) { return !m.faces.empty(); }
+  static bool cracks_bear_tractions(S, W, M m) { return m.any_tractions(); }
+  static bool there_are_cracks(S s, W, M) { return !s.cracks.empty(); }
+  static bool pieces_turn(S s, W, M) { return s.pieces.any(); }
 
-  template <class F>
-  void serial(const char* name, F f) {
-    const auto start = std::chrono::steady_clock::now();
-    f();
-    book(name, start);
-  }
-  template <class F>
-  void blocks(const char* name, F f) {
-    const auto start = std::chrono::steady_clock::now();
-    parallel_for(state_.blocks.size(), threads_, f);
-    book(name, start);
-  }
+  static bool stress_goes_first(S, W, M m) { return updates_stress_first(m); }
+  static bool only_forces(S, W, M m) { return !updates_stress_first(m); }
+
+  static bool there_is_a_series(S, W w, M) { return w.now.transfer.terms > 0; }
+  static bool nodes_give_velocities(S, W w, M) { return w.now.rule.nodal != 0; }
+  static bool flip_anew(S, W w, M) { return w.now.transfer.re_extrapolates && w.now.rule.is_flip(); }
+  static bool taken_anew(S, W w, M) { return w.now.transfer.re_extrapolates && !w.now.rule.is_flip(); }
+  static bool taken_once(S, W w, M) { return !w.now.transfer.re_extrapolates && !w.now.rule.is_flip(); }
+  static bool momenta_go_anew(S, W w, M) { return w.now.transfer.re_extrapolates; }
+  static bool body_works_anew(S, W w, M m) { return w.now.transfer.re_extrapolates && !w.now.rule.is_flip() && m.any_body_force(); }
+
+  static bool moves_only(S s, W w, M m) { return !accelerates(s, w, m) && !updates_stress_last(m); }
+  static bool accelerates_and_moves(S s, W w, M m) { return accelerates(s, w, m) && !updates_stress_last(m); }
+  static bool strains_and_moves(S s, W w, M m) { return !accelerates(s, w, m) && updates_stress_last(m); }
+  static bool strains_accelerates_and_moves(S s, W w, M m) { return accelerates(s, w, m) && updates_stress_last(m); }
 
  private:
-  void book(const char* name, std::chrono::steady_clock::time_point start) {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (Phase& phase : state_.phases) {
-      if (phase.name == name) {
-        phase.seconds += seconds;
-        return;
-      }
-    }
-    state_.phases.push_back({name, seconds});
-  }
-  State<Dim>& state_;
-  int threads_;
+  /// Are velocities updated as particles move (N03 Eq. 30), instead of before Task 6?
+  static bool accelerates(S, W w, M) { return !w.now.transfer.re_extrapolates && w.now.rule.is_flip(); }
 };
 
-/// Makes ready to keep what particles move with, where someone will look and positions lead.
+template <int Dim, auto... verbs>
+Stage<Dim> once(const char* name, typename Stage<Dim>::When when, const Reach& reach) {
+  return {name, reach, when, run_once<Dim, verbs...>, nullptr, {}};
+}
+template <int Dim, auto... verbs>
+Stage<Dim> blocks(const char* name, typename Stage<Dim>::When when, const Reach& reach) {
+  return {name, reach, when, nullptr, run_on_block<Dim, verbs...>, {}};
+}
+/// The lines that a transfer repeats for every term of its series beyond the first.
 template <int Dim>
-void watch_motion(Particles<Dim>& particles, Watched watched, double lead) {
-  particles.watched = watched == Watched::yes && lead > 0;
-  if (particles.watched) particles.moved_with.resize_discarding(particles.size());
+Stage<Dim> series(const char* name, typename Stage<Dim>::When when, std::vector<Stage<Dim>> lines) {
+  return {name, {}, when, nullptr, nullptr, std::move(lines)};
+}
+
+template <int Dim>
+void begin_step(const State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, double dt, Watched watched) {
+  StepValues& now = work.now;
+  now.dt = dt;
+  now.watched = watched == Watched::yes;
+  now.lead = position_lead(model, dt);
+  now.further = now.lead - state.particles.lead;
+  // N03 Eq. 35: half at a time for USAVG. The others strain in time with positions: USF to where they are, USL and MUSL along with them.
+  const StressUpdate scheme = model.stress_update;
+  now.stress_dt = scheme == StressUpdate::usavg ? 0.5 * dt : scheme == StressUpdate::usf ? dt - now.further : dt + now.further;
+  now.transfer = model.transfer_in(state.clock.step);
+  now.term = 1;
+}
+
+template <int Dim>
+bool boundary_comes_first(const Model<Dim>& model) {
+  return model.boundary_order == BoundaryOrder::boundary_first;  // N03 Tasks 2, 3
+}
+template <int Dim>
+bool contact_comes_first(const Model<Dim>& model) {
+  return model.boundary_order == BoundaryOrder::contact_first;  // N13 sec. 2.3
 }
 
 }  // namespace
 
+/// The time step of N13, Tasks 0 to 8. Read it as the page of a paper: a line has a name, when it runs, what it reads (of its own block; of others),
+/// what it writes, and its verbs, each a function in the file of its name. Several verbs on a line run one after another on a block while it is
+/// in the cache.
 template <int Dim, class Shape>
-void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watched) {
-  const StressUpdate scheme = model.stress_update;
-  const bool stress_first = scheme == StressUpdate::usf || scheme == StressUpdate::usavg;
-  const bool stress_last = scheme != StressUpdate::usf;
-  const double lead = position_lead(model, dt), further = lead - state.particles.lead;
-  // N03 Eq. 35: half at a time for USAVG. The others strain in time with positions: USF to where they are, USL and MUSL along with them.
-  const double stress_dt = scheme == StressUpdate::usavg ? 0.5 * dt : scheme == StressUpdate::usf ? dt - further : dt + further;
-  const StepTransfer transfer = model.transfer_in(state.step);
-  std::vector<Vec<Dim>> load_values;
-  Vec<Dim> body_force;
-  double damping = 0, particle_damping = 0;
+std::vector<Stage<Dim>> stages() {
+  using enum Data;
+  using enum ContactTask;
+  using If = Whether<Dim>;
+  constexpr auto always = nullptr;
+  constexpr auto boundary_first = boundary_comes_first<Dim>;
+  constexpr auto contact_first = contact_comes_first<Dim>;
+  return {
+      once<Dim, reorder<Dim, Shape>>("re-order particles", If::order_is_old, {motion, none, order | motion | stress | slip}),
+      once<Dim, move_rigid_bodies<Dim>>("move rigid bodies", If::rigid_bodies_move, {rigid, none, rigid}),
+      once<Dim, choose_carriers<Dim, Shape>, start_rotations<Dim>>("begin", If::it_is_the_first_step,
+                                                                   {order | motion | cracks, none, cracks | rotations}),
+      once<Dim, lead_positions<Dim, Shape>>("lead positions", If::positions_lead_further,
+                                            {order | motion | rigid, none, order | motion | cracks}),
+      once<Dim, watch_motion<Dim>>("lead positions", always, {order, none, motion}),
 
-  Phases<Dim> phases(state, model.threads);
-  using B = std::size_t;
-  // Contact of a task: with rigid faces, whose columns of nodes belong to several blocks, there is something to do between what blocks do.
-  const bool rigid_faces = model.any_rigid_face();
-  const auto contact = [&](const char* name, ContactTask task, auto gather, auto settle) {
-    if (!rigid_faces) return phases.blocks(name, [&](B b) { gather(b), settle(b); });
-    phases.blocks(name, gather);
-    phases.serial(name, [&] {
-      if (task == ContactTask::two) link_face_columns(state, model);
-      meet_faces(state, model, task, dt);
-    });
-    phases.blocks(name, settle);
+      once<Dim, evaluate_conditions<Dim>>("prescribe", always, {order | prescribed, none, prescribed}),
+      blocks<Dim, prescribe_by_rigid<Dim>>("prescribe", If::rigid_bodies_prescribe, {rigid | prescribed, none, prescribed}),
+      once<Dim, evaluate_loads<Dim>, check_prescribed<Dim>>("prescribe", always, {prescribed, none, prescribed}),
+
+      // Task 0
+      once<Dim, assign_velocity_fields<Dim, Shape>>("velocity fields", always, {order | motion | cracks | prescribed, none, fields}),
+      once<Dim, record_initial_volume<Dim, Shape>>("velocity fields", If::it_is_the_first_step, {motion | fields, none, contacts}),
+
+      // Task 1
+      blocks<Dim, project_momentum<Dim, Shape>>("project momentum", always, {motion | fields, none, tiles | rotations}),
+      once<Dim, find_rotations<Dim>>("project momentum", If::pieces_turn, {rotations, none, rotations}),
+      blocks<Dim, find_shared_nodes<Dim, Shape>>("find contact", If::bodies_meet, {fields | rigid, tiles, shared | momenta}),
+      blocks<Dim, project_contact_sums<Dim, Shape>>("find contact", If::bodies_meet, {motion | stress | slip | fields, shared, tiles}),
+
+      // Task 2
+      blocks<Dim, assemble_start_momenta<Dim, Shape>, assemble_contact_sums<Dim, Shape>, find_contacts<Dim, Shape>,
+             find_face_nodes<Dim, Shape>, impose_symmetry<Dim>, run_where<Dim, boundary_first, impose_start_momenta<Dim>>,
+             in_task<Dim, start_meeting_faces<Dim>, two>>(
+          "contact and boundaries", always, {fields | shared | rotations | contacts | prescribed | rigid, tiles | motion, momenta | pairs}),
+      once<Dim, link_face_columns<Dim>, in_task_once<Dim, meet_faces<Dim>, two>>("contact and boundaries", If::rigid_faces_meet,
+                                                                                 {pairs | momenta | rigid | contacts, none, pairs}),
+      blocks<Dim, in_task<Dim, adjust_contact<Dim>, two>, in_task<Dim, take_face_impulses<Dim>, two>,
+             run_where<Dim, contact_first, impose_start_momenta<Dim>>, find_velocities<Dim>>(
+          "contact and boundaries", always, {pairs | momenta | prescribed, none, momenta | velocities | books}),
+      blocks<Dim, weigh_face_loads<Dim, Shape>>("face loads", If::faces_are_loaded, {motion | stress | fields, velocities, faces}),
+      once<Dim, settle_face_loads<Dim>>("face loads", If::faces_are_loaded, {faces | prescribed, none, faces}),
+
+      // Tasks 2 and 3: stress of each pack is updated and its forces follow (USF, USAVG), or the forces alone (USL, MUSL).
+      blocks<Dim, update_stress_and_project_forces<Dim, Shape>>("stress and forces", If::stress_goes_first,
+                                                                {motion | fields | prescribed | faces, velocities, stress | tiles}),
+      blocks<Dim, project_forces<Dim, Shape>>("stress and forces", If::only_forces,
+                                              {motion | stress | fields | prescribed | faces, none, tiles}),
+      once<Dim, share_tractions<Dim, Shape>>("crack tractions", If::cracks_bear_tractions,
+                                             {cracks | tractions | momenta | fields, none, forces}),
+
+      // Tasks 3 and 4
+      blocks<Dim, assemble_forces<Dim, Shape>, add_tractions<Dim>, add_body_forces<Dim>, impose_forces<Dim>, add_forces<Dim>,
+             in_task<Dim, start_meeting_faces<Dim>, four>>(
+          "update momenta", always, {fields | momenta | forces | prescribed, tiles, momenta | forces | answers | books}),
+      once<Dim, in_task_once<Dim, meet_faces<Dim>, four>>("update momenta", If::rigid_faces_meet,
+                                                          {pairs | momenta | rigid, none, pairs | answers | books}),
+      blocks<Dim, in_task<Dim, adjust_contact<Dim>, four>, in_task<Dim, take_face_impulses<Dim>, four>, account_body_forces<Dim>,
+             find_accelerations<Dim>, sum_couples<Dim>>(
+          "update momenta", always, {pairs | momenta | forces | velocities | prescribed, none, answers | velocities | rotations | books}),
+      blocks<Dim, account_loads<Dim, Shape>, account_mirrored_forces<Dim, Shape>>("account loads", always,
+                                                                                  {tiles | motion | stress | prescribed, answers, books}),
+      blocks<Dim, take_back_body_work<Dim>>("account loads", If::body_works_anew, {momenta | velocities, none, books}),
+
+      // Task 5 of XPIC and FMPM: the velocities of nodes by a series
+      blocks<Dim, start_series<Dim>>("filter velocities", If::there_is_a_series, {answers, none, velocities}),
+      series<Dim>(
+          "filter velocities", If::there_is_a_series,
+          {
+              blocks<Dim, sum_rotation_of_term<Dim>>("filter velocities", always, {velocities, none, rotations}),
+              blocks<Dim, project_term<Dim, Shape>>("filter velocities", always, {motion | fields, velocities, tiles}),
+              once<Dim, find_term_spins<Dim>>("filter velocities", always, {rotations, none, rotations}),
+              blocks<Dim, gather_term<Dim, Shape>, in_task<Dim, start_meeting_faces<Dim>, term>>(
+                  "filter velocities", always, {fields | rotations | velocities, tiles, momenta | pairs}),
+              once<Dim, in_task_once<Dim, meet_faces<Dim>, term>>("filter velocities", If::rigid_faces_meet,
+                                                                  {pairs | momenta | rigid, none, pairs}),
+              blocks<Dim, in_task<Dim, adjust_contact<Dim>, term>, in_task<Dim, take_face_impulses<Dim>, term>, clear_fixed_momenta<Dim>,
+                     add_term<Dim>>("filter velocities", always, {pairs | momenta | prescribed, none, velocities | answers}),
+          }),
+
+      // Tasks 5 and 6
+      blocks<Dim, sum_rotation_of_motion<Dim>>("update velocities", If::nodes_give_velocities, {answers | momenta, none, rotations}),
+      once<Dim, answer_couples<Dim>>("update velocities", always, {rotations, none, rotations}),
+      blocks<Dim, update_velocities_and_project<Dim, Shape>>("update velocities", If::flip_anew,
+                                                             {motion | fields | rotations, answers, motion | tiles}),
+      blocks<Dim, take_velocities_and_project<Dim, Shape>>("update velocities", If::taken_anew,
+                                                           {motion | fields | rotations, answers, motion | tiles | books}),
+      blocks<Dim, take_velocities<Dim, Shape>>("update velocities", If::taken_once, {motion | fields | rotations, answers, motion | books}),
+      blocks<Dim, assemble_end_momenta<Dim, Shape>, impose_symmetry<Dim>, run_where<Dim, boundary_first, impose_end_momenta<Dim>>,
+             in_task<Dim, start_meeting_faces<Dim>, six>>("contact and boundaries again", If::momenta_go_anew,
+                                                          {fields | rotations | prescribed, tiles, momenta | pairs}),
+      once<Dim, in_task_once<Dim, meet_faces<Dim>, six>>("contact and boundaries again", If::rigid_faces_meet_anew,
+                                                         {pairs | momenta | rigid, none, pairs | books}),
+      blocks<Dim, in_task<Dim, adjust_contact<Dim>, six>, in_task<Dim, take_face_impulses<Dim>, six>,
+             run_where<Dim, contact_first, impose_end_momenta<Dim>>, find_velocities<Dim>, move_with_velocities<Dim>>(
+          "contact and boundaries again", If::momenta_go_anew,
+          {pairs | momenta | prescribed, none, momenta | velocities | answers | books}),
+      blocks<Dim, account_loads_anew<Dim, Shape>>("account loads", If::momenta_go_anew, {tiles, velocities, books}),
+      blocks<Dim, add_body_work<Dim>>("account loads", If::body_works_anew, {momenta | velocities, none, books}),
+      once<Dim, remember_contacts<Dim>, remember_rigid_conditions<Dim>>("remember contacts", always,
+                                                                        {pairs | prescribed, none, contacts | prescribed}),
+
+      // Tasks 5 and 6: stress of each pack is updated and its particles move (USL, MUSL, USAVG), or they move alone (USF).
+      blocks<Dim, move_particles<Dim, Shape>>("stress and positions", If::moves_only,
+                                              {motion | fields, answers, motion | slip | order | books}),
+      blocks<Dim, accelerate_and_move_particles<Dim, Shape>>("stress and positions", If::accelerates_and_moves,
+                                                             {motion | fields | rotations, answers, motion | slip | order | books}),
+      blocks<Dim, update_stress_and_move_particles<Dim, Shape>>(
+          "stress and positions", If::strains_and_moves, {motion | fields, answers | velocities, motion | stress | slip | order | books}),
+      blocks<Dim, update_stress_accelerate_and_move_particles<Dim, Shape>>(
+          "stress and positions", If::strains_accelerates_and_moves,
+          {motion | fields | rotations, answers | velocities, motion | stress | slip | order | books}),
+
+      // Task 8
+      once<Dim, move_cracks<Dim>, update_tractions<Dim>>("move cracks", If::there_are_cracks,
+                                                         {motion | momenta | fields, none, cracks | tractions}),
+      once<Dim, end_rigid_motion<Dim>, close_step<Dim>, close_ledger<Dim>, check_health<Dim, Shape>>("close the step", always,
+                                                                                                     {books | motion, none, order | rigid}),
   };
-  phases.serial("prepare", [&] {
-    if (state.must_reorder) reorder<Dim, Shape>(state, model);
-    start_rigid_motion(state, model, dt);
-    if (state.step == 0) {
-      choose_carriers<Dim, Shape>(state, model);
-      start_rotations(state, model);
-    }
-    lead_positions<Dim, Shape>(state, model, dt);
-    watch_motion(state.particles, watched, lead);
-    evaluate_conditions(state, model, dt);
-    if (model.any_prescribing_body()) parallel_for(state.blocks.size(), model.threads, [&](B b) { prescribe_by_rigid(state, model, b); });
-    evaluate_loads(state.time + lead, model, load_values, body_force, damping);
-    particle_damping = model.particle_damping(state.time + lead, {});
-    check_prescribed(state, model, load_values, body_force, damping, particle_damping);
-    assign_velocity_fields<Dim, Shape>(state, model, dt);  // Task 0
-    record_initial_volume<Dim, Shape>(state, model);
-  });
-  phases.blocks("project momentum", [&](B b) { project_momentum<Dim, Shape>(state, model, b); });  // Task 1
-  phases.serial("project momentum", [&] { find_rotations(state); });
-  if (model.any_contact()) {
-    phases.blocks("find contact", [&](B b) { find_shared_nodes<Dim, Shape>(state, model, b); });
-    phases.blocks("find contact", [&](B b) { project_contact_sums<Dim, Shape>(state, model, b); });
-  }
-  contact(
-      "contact and boundaries", ContactTask::two, [&](B b) { gather_start_momenta<Dim, Shape>(state, model, b); },  // Tasks 1, 2
-      [&](B b) { settle_start_momenta(state, model, b, dt); });
-  if (!model.faces.empty()) {
-    phases.blocks("face loads", [&](B b) { weigh_face_loads<Dim, Shape>(state, model, b, stress_first ? stress_dt : 0.); });
-    phases.serial("face loads", [&] { settle_face_loads(state, model, load_values); });
-  }
-  phases.blocks("stress and forces", [&](B b) {  // Tasks 2, 3
-    update_stress_and_project_forces<Dim, Shape>(state, model, b, dt, stress_first ? stress_dt : 0., load_values, body_force, damping);
-  });
-  if (model.any_tractions()) phases.serial("crack tractions", [&] { spread_tractions<Dim, Shape>(state, model); });
-  contact(
-      "update momenta", ContactTask::four,
-      [&](B b) { update_momenta<Dim, Shape>(state, model, b, dt, body_force, damping); },  // Tasks 3, 4
-      [&](B b) {
-        settle_updated_momenta(state, model, b, dt, body_force, damping);
-        sum_couples(state, model, b);
-      });
-  phases.blocks("account loads", [&](B b) {
-    account_loads<Dim, Shape>(state, model, b, dt);
-    account_mirrored_forces<Dim, Shape>(state, model, b, dt, load_values, body_force, damping);
-  });
-  const VelocityRule rule = velocity_rule(model.transfer, transfer, scheme, model.positions, dt, damping, particle_damping);
-  const bool body_works_anew = transfer.re_extrapolates && !rule.is_flip() && model.any_body_force();
-  if (body_works_anew) phases.blocks("account loads", [&](B b) { account_body_force(state, model, b, -0.5 * dt, body_force); });
-  if (transfer.terms > 0) {  // XPIC, FMPM
-    phases.blocks("filter velocities", [&](B b) { start_series(state, transfer, b, dt); });
-    for (int term = 2; term <= transfer.terms; ++term) {
-      phases.blocks("filter velocities", [&](B b) {
-        sum_read_rotation(state, model, b, ReadVelocity::term);
-        project_term<Dim, Shape>(state, model, transfer, b, term);
-      });
-      phases.serial("filter velocities", [&] { find_term_spins(state); });
-      contact(
-          "filter velocities", ContactTask::term, [&](B b) { gather_term<Dim, Shape>(state, model, transfer, b, dt); },
-          [&](B b) { add_term(state, model, b, dt); });
-    }
-  }
-  if (rule.nodal != 0) phases.blocks("update velocities", [&](B b) { sum_read_rotation(state, model, b, ReadVelocity::motion); });
-  phases.serial("update velocities", [&] { answer_couples(state, rule); });
-  if (transfer.re_extrapolates) {
-    phases.blocks("update velocities", [&](B b) {  // Tasks 5, 6
-      if (rule.is_flip()) {
-        update_velocities_and_project<Dim, Shape>(state, model, b, dt);
-      } else {
-        take_velocities_and_project<Dim, Shape>(state, model, b, rule);
-      }
-    });
-    contact(
-        "contact and boundaries again", ContactTask::six, [&](B b) { gather_end_momenta<Dim, Shape>(state, model, b, dt); },  // Task 6
-        [&](B b) { settle_end_momenta(state, model, b, dt); });
-    phases.blocks("account loads", [&](B b) {
-      account_loads_anew<Dim, Shape>(state, b, dt);
-      if (body_works_anew) account_body_force(state, model, b, 0.5 * dt, body_force);
-    });
-  } else if (!rule.is_flip()) {
-    phases.blocks("update velocities", [&](B b) { take_velocities<Dim, Shape>(state, model, b, rule); });  // Task 5
-  }
-  phases.serial("remember contacts", [&] {
-    remember_contacts(state);
-    remember_rigid_conditions(state, model);
-  });
-  phases.blocks("stress and positions", [&](B b) {  // Tasks 5, 6
-    finish_particles<Dim, Shape>(state, model, b, dt, further, stress_last ? stress_dt : 0., !transfer.re_extrapolates && rule.is_flip());
-  });
-  phases.serial("move cracks", [&] {  // Task 8
-    move_cracks(state, model, dt);
-    update_tractions(state, model, state.time + dt);
-  });
-  end_rigid_motion(state);
-  state.time += dt;
-  ++state.step;
-  close_ledger(state, model);
-  check_health<Dim, Shape>(state, model, dt);
 }
 
 template <int Dim, class Shape>
-StiffestVertex find_stiffest_vertex(State<Dim>& state, const Model<Dim>& model) {
-  if (!model.any_tractions()) return {};
-  if (state.must_reorder) reorder<Dim, Shape>(state, model);
-  assign_velocity_fields<Dim, Shape>(state, model, 1.);  // no face moves yet: any time step
-  choose_carriers<Dim, Shape>(state, model);
-  parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) { project_momentum<Dim, Shape>(state, model, b); });
-  parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) { assemble_momentum<Dim, Shape>(state, b); });
-  return spread_tractions<Dim, Shape>(state, model);
+void advance(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, double dt, Watched watched) {
+  static const std::vector<Stage<Dim>> table = stages<Dim, Shape>();
+  begin_step(state, work, model, dt, watched);
+  run_stages(table, state, work, model);
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                               \
-  template void advance<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double, Watched); \
-  template StiffestVertex find_stiffest_vertex<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
+template <int Dim, class Shape>
+StiffestVertex find_stiffest_vertex(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  if (!model.any_tractions()) return {};
+  if (state.order.must_reorder) reorder<Dim, Shape>(state, work, model);
+  work.now = {};
+  work.now.dt = 1;  // no face moves yet: any time step
+  assign_velocity_fields<Dim, Shape>(state, work, model);
+  choose_carriers<Dim, Shape>(state, work, model);
+  parallel_for(work.blocks.size(), model.threads, [&](std::size_t b) { project_momentum<Dim, Shape>(state, work, model, b); });
+  parallel_for(work.blocks.size(), model.threads, [&](std::size_t b) { assemble_momentum<Dim, Shape>(work, b); });
+  return spread_tractions<Dim, Shape>(state, work, model);
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                               \
+  template std::vector<Stage<DIM>> stages<DIM, SHAPE>();                                              \
+  template void advance<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, double, Watched); \
+  template StiffestVertex find_stiffest_vertex<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

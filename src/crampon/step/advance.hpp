@@ -1,7 +1,8 @@
 #pragma once
 #include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/stage.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -12,11 +13,15 @@ enum class Watched { no, yes };
 /// advice when numbers go bad, a particle leaves the grid (unless such particles are to be removed), moves more than a cell or turns
 /// inside out.
 template <int Dim, class Shape>
-void advance(State<Dim>& state, const Model<Dim>& model, double dt, Watched watched);
+void advance(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, double dt, Watched watched);
 
-/// Looks at particles and cracks as the next step will, and finds what traction laws allow for its length (State::traction_time_step).
+/// The lines of a step.
+template <int Dim, class Shape>
+std::vector<Stage<Dim>> stages();
+
+/// Looks at particles and cracks as the next step will, and finds what traction laws allow for its length (Clock::traction_time_step).
 /// Without such laws it does nothing.
 template <int Dim, class Shape>
-StiffestVertex find_stiffest_vertex(State<Dim>& state, const Model<Dim>& model);
+StiffestVertex find_stiffest_vertex(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 }  // namespace crampon

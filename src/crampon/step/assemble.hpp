@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "crampon/shape/stencil.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -79,10 +79,10 @@ int layer_of(const std::vector<Layer>& layers, const Layer& layer) {
 
 /// The box of a tile layer that particles touch.
 template <int Dim>
-const TileBox<Dim>& touched_box(const State<Dim>& state, std::size_t block, int layer) {
-  const BlockLayers<Dim>& layers = state.nodes.layers[block];
+const TileBox<Dim>& touched_box(const StepWork<Dim>& work, std::size_t block, int layer) {
+  const BlockLayers<Dim>& layers = work.nodes.layers[block];
   const auto l = static_cast<std::size_t>(layer);
-  return layers.tile[l].cracks.empty() ? state.blocks.list[block].touched : layers.tile_box[l];
+  return layers.tile[l].cracks.empty() ? work.blocks.list[block].touched : layers.tile_box[l];
 }
 
 // Rows are a few hundred bytes: plain loops over registers, since calls of memset and memcpy, or what compilers make of them, cost more
@@ -112,18 +112,18 @@ inline void add_record(Record& a, const Record& b) {
 
 /// Sum of all tiles over the own nodes of a block, for one layer. `out` has block_nodes records.
 template <int Dim, class Shape, class Record>
-void assemble_layer(const State<Dim>& state, std::size_t block, const Layer& wanted, const AlignedArray<Record>& tiles, Record* out,
+void assemble_layer(const StepWork<Dim>& work, std::size_t block, const Layer& wanted, const AlignedArray<Record>& tiles, Record* out,
                     bool contact_only = false) {
   std::fill_n(out, block_nodes<Dim>, Record{});
-  const Block<Dim>& own = state.blocks.list[block];
+  const Block<Dim>& own = work.blocks.list[block];
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t c = own.neighbours[o];
-    if (c == no_block || !state.blocks.list[c].has_particles()) continue;
-    const BlockLayers<Dim>& layers = state.nodes.layers[c];
+    if (c == no_block || !work.blocks.list[c].has_particles()) continue;
+    const BlockLayers<Dim>& layers = work.nodes.layers[c];
     if (contact_only && !layers.sums_contact) continue;
     const int layer = layer_of<Dim>(layers.tile, wanted);
     if (layer < 0) continue;
-    const Overlap<Dim, Shape> overlap(neighbour_step<Dim>(o), touched_box(state, c, layer));
+    const Overlap<Dim, Shape> overlap(neighbour_step<Dim>(o), touched_box(work, c, layer));
     if (overlap.empty) continue;
     const Record* tile = &tiles[(std::size_t{layers.tile_begin} + layer) * Tile<Dim, Shape>::nodes];
     overlap.rows([&](int local, int t, auto count) {
@@ -142,10 +142,10 @@ void prefetch_layer(const AlignedArray<Record>& nodes, std::size_t first) {
 
 /// Copies nodal records into a tile of a block, for one of its layers, over the touched box.
 template <int Dim, class Shape, class Record>
-void gather_layer(const State<Dim>& state, std::size_t block, int layer, const AlignedArray<Record>& nodes, Record* tile) {
-  const Block<Dim>& own = state.blocks.list[block];
-  const BlockLayers<Dim>& layers = state.nodes.layers[block];
-  const TileBox<Dim>& box = touched_box(state, block, layer);
+void gather_layer(const StepWork<Dim>& work, std::size_t block, int layer, const AlignedArray<Record>& nodes, Record* tile) {
+  const Block<Dim>& own = work.blocks.list[block];
+  const BlockLayers<Dim>& layers = work.nodes.layers[block];
+  const TileBox<Dim>& box = touched_box(work, block, layer);
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t c = own.neighbours[o];
     if (c == no_block) continue;
@@ -153,9 +153,9 @@ void gather_layer(const State<Dim>& state, std::size_t block, int layer, const A
     for (int k = 0; k < Dim; ++k) step[k] = -step[k];  // seen from the node's block, the tile is its neighbour on the other side
     const Overlap<Dim, Shape> overlap(step, box);
     if (overlap.empty) continue;
-    const int there = layer_of<Dim>(state.nodes.layers[c].node, layers.tile[static_cast<std::size_t>(layer)]);
-    const Record* source = &nodes[state.nodes.layers[c].slot(there, 0)];
-    if (c == block) prefetch_layer<Dim>(nodes, state.nodes.layers[c].slot(there, 0) + 2 * block_nodes<Dim>);  // the block after next
+    const int there = layer_of<Dim>(work.nodes.layers[c].node, layers.tile[static_cast<std::size_t>(layer)]);
+    const Record* source = &nodes[work.nodes.layers[c].slot(there, 0)];
+    if (c == block) prefetch_layer<Dim>(nodes, work.nodes.layers[c].slot(there, 0) + 2 * block_nodes<Dim>);  // the block after next
     overlap.rows([&](int local, int t, auto count) {
       for (int i = 0; i < count; ++i) tile[t + i] = source[local + i];
     });

@@ -24,15 +24,16 @@ class BlockAssignment {
   using T = Tile<Dim, Shape>;
 
  public:
-  BlockAssignment(const State<Dim>& state, const Model<Dim>& model, std::size_t b, BlockLayers<Dim>& layers,
+  BlockAssignment(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, BlockLayers<Dim>& layers,
                   std::vector<CrossingSums>& crossing, double dt)
       : state_(state),
+        work_(work),
         model_(model),
-        view_(state.crack_view),
-        block_(state.blocks.list[b]),
+        view_(work.crack_view),
+        block_(work.blocks.list[b]),
         layers_(layers),
         crossing_(crossing),
-        held_(state, model, b),
+        held_(work, model, b),
         folder_(model, held_),
         dt_(dt) {}
 
@@ -60,7 +61,7 @@ class BlockAssignment {
     layers_.tile_box.clear();
     for (std::uint32_t r = block_.first_run; r < block_.end_run; ++r) {
       layers_.run_layer.push_back(
-          static_cast<std::uint8_t>(layer_number({model_.materials[state_.blocks.runs[r].material].field, Signature{}})));
+          static_cast<std::uint8_t>(layer_number({model_.materials[state_.order.runs[r].material].field, Signature{}})));
     }
   }
   /// False when a line crosses too many cracks or the block has too many layers.
@@ -71,12 +72,12 @@ class BlockAssignment {
 
   void run() {
     const auto first = block_.first_node();
-    const std::uint32_t first_pack = state_.blocks.runs[block_.first_run].first_pack;
-    const std::uint32_t end_pack = state_.blocks.runs[block_.end_run - 1].end_pack;
+    const std::uint32_t first_pack = state_.order.runs[block_.first_run].first_pack;
+    const std::uint32_t end_pack = state_.order.runs[block_.end_run - 1].end_pack;
     layers_.special.assign(end_pack - first_pack, -1);
     std::int32_t count = 0;
     StencilFactors<Dim, Shape> stencil;
-    const Run* run = &state_.blocks.runs[block_.first_run];
+    const Run* run = &state_.order.runs[block_.first_run];
     for (std::uint32_t k = first_pack; k < end_pack; ++k) {
       while (k >= run->end_pack) ++run;
       Pack x[Dim];
@@ -89,7 +90,7 @@ class BlockAssignment {
       field_ = model_.materials[run->material].field;
       rigid_ = model_.is_rigid(field_);
       sees_cracks_ = !model_.is_whole(field_);
-      own_layer_ = layers_.run_layer[static_cast<std::size_t>(run - &state_.blocks.runs[block_.first_run])];
+      own_layer_ = layers_.run_layer[static_cast<std::size_t>(run - &state_.order.runs[block_.first_run])];
       for (int l = 0; l < lanes; ++l) assign(stencil, x, l, state_.particles.is_padding(std::size_t{k} * lanes + l));
     }
     if (count == 0) layers_.special.clear();
@@ -277,6 +278,7 @@ class BlockAssignment {
   }
 
   const State<Dim>& state_;
+  const StepWork<Dim>& work_;
   const Model<Dim>& model_;
   const CrackView& view_;
   const Block<Dim>& block_;
@@ -306,18 +308,19 @@ void reset_layers(BlockLayers<Dim>& layers) {
 }  // namespace
 
 template <int Dim, class Shape>
-void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model, double dt) {
+void assign_velocity_fields(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  const double dt = work.now.dt;
   if constexpr (Dim == 2) {
-    if (!state.cracks.empty()) view_cracks(state, model, Shape::width == 3 ? 1 : 0);
+    if (!state.cracks.empty()) view_cracks(state, work, model, Shape::width == 3 ? 1 : 0);
   }
-  std::vector<std::vector<CrossingSums>> crossing(state.blocks.size());
+  std::vector<std::vector<CrossingSums>> crossing(work.blocks.size());
   std::atomic<bool> fits{true};
   const bool may_fold = Shape::width == 3 && !model.conditions.empty();
   if (!state.cracks.empty() || may_fold || model.fields.size() > 1) {
-    parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) {
-      BlockLayers<Dim>& layers = state.nodes.layers[b];
+    parallel_for(work.blocks.size(), model.threads, [&](std::size_t b) {
+      BlockLayers<Dim>& layers = work.nodes.layers[b];
       reset_layers(layers);
-      BlockAssignment<Dim, Shape> assignment(state, model, b, layers, crossing[b], dt);
+      BlockAssignment<Dim, Shape> assignment(state, work, model, b, layers, crossing[b], dt);
       assignment.begin();
       if (assignment.needed()) assignment.run();
       if (!assignment.finish()) fits = false;
@@ -328,10 +331,10 @@ void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model, double d
                    " cracks lie between a particle and a node of its stencil, or a block of cells holds more than 255 velocity fields; "
                    "use smaller cells or fewer cracks at one place");
   }
-  lay_out_nodes<Dim, Shape>(state, model, crossing);
+  lay_out_nodes<Dim, Shape>(state, work, model, crossing);
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void assign_velocity_fields<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void assign_velocity_fields<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

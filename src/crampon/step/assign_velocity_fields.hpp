@@ -1,6 +1,6 @@
 #pragma once
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -9,6 +9,6 @@ namespace crampon {
 /// the normals of crossed segments per node and crack, and lays out tiles and nodes of the layers found.
 /// Throws RunError when a line crosses more than Signature::capacity cracks or a block needs more than 255 layers.
 template <int Dim, class Shape>
-void assign_velocity_fields(State<Dim>& state, const Model<Dim>& model, double dt);
+void assign_velocity_fields(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 }  // namespace crampon

@@ -9,8 +9,8 @@ namespace crampon {
 namespace {
 
 template <int Dim>
-Vec<3> node_place(const State<Dim>& state, const Model<Dim>& model, std::size_t block, int node) {
-  const Vec<Dim> at = model.grid.node_position(state.blocks.list[block].node(node));
+Vec<3> node_place(const StepWork<Dim>& work, const Model<Dim>& model, std::size_t block, int node) {
+  const Vec<Dim> at = model.grid.node_position(work.blocks.list[block].node(node));
   Vec<3> x;
   for (int k = 0; k < Dim; ++k) x[k] = at[k];
   return x;
@@ -27,8 +27,8 @@ bool is_overruled(const std::vector<FixedComponent>& fixed, std::size_t i) {
 }
 
 template <int Dim>
-Vec<Dim> middle_of_block(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  const auto& block = state.blocks.list[b];
+Vec<Dim> middle_of_block(const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  const auto& block = work.blocks.list[b];
   return 0.5 * (model.grid.node_position(block.node(0)) + model.grid.node_position(block.node(block_nodes<Dim> - 1)));
 }
 
@@ -41,9 +41,9 @@ double half_diagonal_of_block(const Grid<Dim>& grid) {
 
 /// f(component, slot index into nodal arrays, index into p_int) for the active fixed components of a block, in all its layers.
 template <int Dim, class F>
-void for_fixed(State<Dim>& state, const Model<Dim>& model, std::size_t b, F f) {
-  auto& scratch = state.scratch[b];
-  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+void for_fixed(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, F f) {
+  auto& scratch = work.scratch[b];
+  const BlockLayers<Dim>& layers = work.nodes.layers[b];
   const std::size_t count = scratch.fixed.size();
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
     if (model.is_rigid(layers.node[l].field)) continue;
@@ -59,15 +59,16 @@ void for_fixed(State<Dim>& state, const Model<Dim>& model, std::size_t b, F f) {
 }  // namespace
 
 template <int Dim>
-void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt) {
-  const double t_old = state.time, t_new = state.time + dt;
+void evaluate_conditions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  const double dt = work.now.dt;
+  const double t_old = state.clock.time, t_new = state.clock.time + dt;
   struct Value {
     bool active = false, everywhere = false;
     double v_old = 0, v_new = 0;
   };
   std::vector<std::vector<Value>> values(model.conditions.size());
-  state.condition_was_active.resize(model.conditions.size(), false);
-  const std::vector<bool> was_active = state.condition_was_active;
+  state.conditions.was_active.resize(model.conditions.size(), false);
+  const std::vector<bool> was_active = state.conditions.was_active;
   for (std::size_t c = 0; c < model.conditions.size(); ++c) {
     const auto& condition = model.conditions[c];
     // A step belongs to the condition when it starts within its time.
@@ -77,10 +78,10 @@ void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt) 
       if (v.everywhere && active) v.v_old = component.value(t_old, {}), v.v_new = component.value(t_new, {});
       values[c].push_back(v);
     }
-    state.condition_was_active[c] = active;
+    state.conditions.was_active[c] = active;
   }
-  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
-    auto& fixed = state.scratch[b].fixed;
+  for (std::size_t b = 0; b < work.blocks.size(); ++b) {
+    auto& fixed = work.scratch[b].fixed;
     bool was_prescribed = false;
     const FixedComponent* before = nullptr;  // by which it was prescribed in the last step: the last stated of those active
     for (std::size_t i = 0; i < fixed.size(); ++i) {
@@ -99,21 +100,21 @@ void evaluate_conditions(State<Dim>& state, const Model<Dim>& model, double dt) 
       f.v_new = v.v_new;
       if (v.active && !v.everywhere) {
         const ValueFunction& value = model.conditions[f.condition].components[f.component].value;
-        const Vec<3> x = node_place(state, model, b, f.node);
+        const Vec<3> x = node_place(work, model, b, f.node);
         f.v_old = value(t_old, x);
         f.v_new = value(t_new, x);
       }
       // The velocity that the nodes have, where another condition gave it.
       if (v.active && before && before->condition != f.condition && model.conditions[before->condition].rigid_body < 0) {
-        f.v_old = model.conditions[before->condition].components[before->component].value(t_old, node_place(state, model, b, f.node));
+        f.v_old = model.conditions[before->condition].components[before->component].value(t_old, node_place(work, model, b, f.node));
       }
     }
   }
 }
 
 template <int Dim>
-void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  auto& fixed = state.scratch[b].fixed;
+void prescribe_by_rigid(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  auto& fixed = work.scratch[b].fixed;
   const auto by_rigid = [&](const FixedComponent& f) { return model.conditions[f.condition].rigid_body >= 0; };
   fixed.erase(std::remove_if(fixed.begin(), fixed.end(), by_rigid), fixed.end());
   const double reach = prescribing_reach(model.grid);
@@ -122,9 +123,9 @@ void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t 
     const RigidBody<Dim>& body = model.rigid_bodies[r];
     if (!body.prescribes()) continue;
     const RigidMotion<Dim>& motion = state.rigid[r];
-    if (distance_from(body, motion.start, middle_of_block(state, model, b)) > reach + half_diagonal_of_block(model.grid)) continue;
+    if (distance_from(body, motion.start, middle_of_block(work, model, b)) > reach + half_diagonal_of_block(model.grid)) continue;
     for (int node = 0; node < block_nodes<Dim>; ++node) {
-      const IndexVector<Dim> index = state.blocks.list[b].node(node);
+      const IndexVector<Dim> index = work.blocks.list[b].node(node);
       const Vec<Dim> x = model.grid.node_position(index);
       if (!(distance_from(body, motion.start, x) <= reach)) continue;
       const Vec<Dim> v_old = motion.start.velocity_at(x), v_new = motion.end.velocity_at(x);
@@ -137,7 +138,7 @@ void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t 
         f.condition = body.condition;
         f.component = static_cast<std::uint16_t>(q);
         f.active = true;
-        f.fresh = !std::binary_search(state.prescribed_by_rigid.begin(), state.prescribed_by_rigid.end(),
+        f.fresh = !std::binary_search(state.conditions.prescribed_by_rigid.begin(), state.conditions.prescribed_by_rigid.end(),
                                       model.grid.node_number(index) * Dim + axis);
         f.v_old = v_old[axis];
         f.v_new = v_new[axis];
@@ -150,38 +151,38 @@ void prescribe_by_rigid(State<Dim>& state, const Model<Dim>& model, std::size_t 
 }
 
 template <int Dim>
-void remember_rigid_conditions(State<Dim>& state, const Model<Dim>& model) {
-  state.prescribed_by_rigid.clear();
+void remember_rigid_conditions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  state.conditions.prescribed_by_rigid.clear();
   if (model.rigid_bodies.empty()) return;
-  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
-    for (const FixedComponent& f : state.scratch[b].fixed) {
+  for (std::size_t b = 0; b < work.blocks.size(); ++b) {
+    for (const FixedComponent& f : work.scratch[b].fixed) {
       if (model.conditions[f.condition].rigid_body < 0) continue;
-      state.prescribed_by_rigid.push_back(model.grid.node_number(state.blocks.list[b].node(f.node)) * Dim + f.axis);
+      state.conditions.prescribed_by_rigid.push_back(model.grid.node_number(work.blocks.list[b].node(f.node)) * Dim + f.axis);
     }
   }
-  std::sort(state.prescribed_by_rigid.begin(), state.prescribed_by_rigid.end());
+  std::sort(state.conditions.prescribed_by_rigid.begin(), state.conditions.prescribed_by_rigid.end());
 }
 
 template <int Dim>
-void clear_fixed_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t) { state.nodes.momentum[i][c.axis] = 0; });
+void clear_fixed_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  for_fixed(work, model, b, [&](FixedComponent& c, std::size_t i, std::size_t) { work.nodes.momentum[i][c.axis] = 0; });
 }
 
 template <int Dim>
-void impose_symmetry(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+void impose_symmetry(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
   if (model.symmetries.empty()) return;
-  for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
-    if (model.conditions[c.condition].symmetry) state.nodes.momentum[i][c.axis] = 0;
+  for_fixed(work, model, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
+    if (model.conditions[c.condition].symmetry) work.nodes.momentum[i][c.axis] = 0;
   });
 }
 
 template <int Dim>
-void impose_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  auto& scratch = state.scratch[b];
+void impose_start_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  auto& scratch = work.scratch[b];
   if (scratch.fixed.empty()) return;
-  scratch.p_int.assign(scratch.fixed.size() * state.nodes.layers[b].node.size(), 0.);
-  for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t kept) {
-    Pack& p = state.nodes.momentum[i];
+  scratch.p_int.assign(scratch.fixed.size() * work.nodes.layers[b].node.size(), 0.);
+  for_fixed(work, model, b, [&](FixedComponent& c, std::size_t i, std::size_t kept) {
+    Pack& p = work.nodes.momentum[i];
     scratch.p_int[kept] = p[c.axis];
     const bool symmetry = model.conditions[c.condition].symmetry;
     // A component prescribed for the first time starts from what the body does (docs/theory/step.md, boundary values).
@@ -191,11 +192,12 @@ void impose_start_momenta(State<Dim>& state, const Model<Dim>& model, std::size_
 }
 
 template <int Dim>
-void impose_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
-  auto& scratch = state.scratch[b];
-  for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t kept) {
-    Pack& p = state.nodes.momentum[i];
-    NodalVector<Dim>& f = state.nodes.force[i];
+void impose_forces(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  const double dt = work.now.dt;
+  auto& scratch = work.scratch[b];
+  for_fixed(work, model, b, [&](FixedComponent& c, std::size_t i, std::size_t kept) {
+    Pack& p = work.nodes.momentum[i];
+    NodalVector<Dim>& f = work.nodes.force[i];
     const bool symmetry = model.conditions[c.condition].symmetry;
     const double free = f[c.axis];
     double fixed = 0;
@@ -224,18 +226,18 @@ void impose_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, do
 }
 
 template <int Dim>
-void impose_end_momenta(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  if (state.scratch[b].fixed.empty()) return;
-  for_fixed(state, model, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
-    Pack& p = state.nodes.momentum[i];
+void impose_end_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  if (work.scratch[b].fixed.empty()) return;
+  for_fixed(work, model, b, [&](FixedComponent& c, std::size_t i, std::size_t) {
+    Pack& p = work.nodes.momentum[i];
     p[c.axis] = model.conditions[c.condition].symmetry ? 0. : p[Dim] * c.v_new;
   });
 }
 
 template <int Dim>
-unsigned fixed_axes(const State<Dim>& state, std::size_t b, int node) {
+unsigned fixed_axes(const StepWork<Dim>& work, std::size_t b, int node) {
   unsigned axes = 0;
-  const auto& fixed = state.scratch[b].fixed;
+  const auto& fixed = work.scratch[b].fixed;
   auto at = std::lower_bound(fixed.begin(), fixed.end(), node, [](const FixedComponent& c, int n) { return c.node < n; });
   for (; at != fixed.end() && at->node == node; ++at) {
     if (at->active) axes |= 1u << at->axis;
@@ -243,16 +245,16 @@ unsigned fixed_axes(const State<Dim>& state, std::size_t b, int node) {
   return axes;
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                         \
-  template void evaluate_conditions<DIM>(State<DIM>&, const Model<DIM>&, double);        \
-  template void prescribe_by_rigid<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);    \
-  template void remember_rigid_conditions<DIM>(State<DIM>&, const Model<DIM>&);          \
-  template void clear_fixed_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);   \
-  template void impose_symmetry<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);       \
-  template void impose_start_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);  \
-  template void impose_forces<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double); \
-  template void impose_end_momenta<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);    \
-  template unsigned fixed_axes<DIM>(const State<DIM>&, std::size_t, int);
+#define CRAMPON_INSTANTIATE(DIM)                                                                      \
+  template void evaluate_conditions<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);             \
+  template void prescribe_by_rigid<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t); \
+  template void remember_rigid_conditions<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);       \
+  template void clear_fixed_momenta<DIM>(StepWork<DIM>&, const Model<DIM>&, std::size_t);             \
+  template void impose_symmetry<DIM>(StepWork<DIM>&, const Model<DIM>&, std::size_t);                 \
+  template void impose_start_momenta<DIM>(StepWork<DIM>&, const Model<DIM>&, std::size_t);            \
+  template void impose_forces<DIM>(StepWork<DIM>&, const Model<DIM>&, std::size_t);                   \
+  template void impose_end_momenta<DIM>(StepWork<DIM>&, const Model<DIM>&, std::size_t);              \
+  template unsigned fixed_axes<DIM>(const StepWork<DIM>&, std::size_t, int);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE

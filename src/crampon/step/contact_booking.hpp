@@ -8,7 +8,7 @@
 #include "crampon/contact/node_solve.hpp"
 #include "crampon/contact/response.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 

@@ -22,19 +22,19 @@ bool is_deep(const State<Dim>& state, const Model<Dim>& model, std::size_t p) {
 
 template <int Dim>
 template <class Shape>
-void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<bool>& wanted,
-                                Of of) {
+void ContactCloud<Dim>::collect(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t block,
+                                const std::vector<bool>& wanted, Of of) {
   using T = Tile<Dim, Shape>;
-  const Block<Dim>& own = state.blocks.list[block];
+  const Block<Dim>& own = work.blocks.list[block];
   const auto own_first = own.first_node();
   std::vector<std::uint32_t> at_surface;
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t c = own.neighbours[o];
-    if (c == no_block || state.nodes.layers[c].contact_packs.empty()) continue;
-    const BlockLayers<Dim>& layers = state.nodes.layers[c];
+    if (c == no_block || work.nodes.layers[c].contact_packs.empty()) continue;
+    const BlockLayers<Dim>& layers = work.nodes.layers[c];
     std::vector<int> layer_here;
-    for (const Layer& layer : layers.tile) layer_here.push_back(layer_of<Dim>(state.nodes.layers[block].node, layer));
-    const auto first = state.blocks.list[c].first_node();
+    for (const Layer& layer : layers.tile) layer_here.push_back(layer_of<Dim>(work.nodes.layers[block].node, layer));
+    const auto first = work.blocks.list[c].first_node();
     if (of == Of::surface) {
       at_surface.clear();
       for (const std::uint32_t pack : layers.contact_packs) {
@@ -44,7 +44,7 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
       }
     }
     for_packs<Dim, Shape>(
-        state, model, c, of == Of::all ? layers.contact_packs : at_surface,
+        state, work, model, c, of == Of::all ? layers.contact_packs : at_surface,
         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
           const Material<Dim>& material = model.materials[run.material];
           Pack F[Dim * Dim];
@@ -107,8 +107,9 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const Model<Dim>& model
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) \
-  template void ContactCloud<DIM>::collect<SHAPE>(const State<DIM>&, const Model<DIM>&, std::size_t, const std::vector<bool>&, Of);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                    \
+  template void ContactCloud<DIM>::collect<SHAPE>(const State<DIM>&, const StepWork<DIM>&, const Model<DIM>&, std::size_t, \
+                                                  const std::vector<bool>&, Of);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

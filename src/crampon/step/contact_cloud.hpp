@@ -5,7 +5,7 @@
 
 #include "crampon/core/vector.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -57,7 +57,8 @@ class ContactCloud {
   /// Collects what reaches the nodes for which wanted[node] holds: all particles, or those that are not known to lie deep in their body.
   enum class Of { all, surface };
   template <class Shape>
-  void collect(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const std::vector<bool>& wanted, Of of = Of::all);
+  void collect(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t block,
+               const std::vector<bool>& wanted, Of of = Of::all);
   void clear() {
     for (auto& points : points_) points.clear();
   }

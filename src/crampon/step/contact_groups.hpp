@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 

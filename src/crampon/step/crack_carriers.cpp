@@ -30,7 +30,7 @@ constexpr double most_leverage = 8;
 class ParticleMap {
  public:
   ParticleMap(const State<2>& state, const Model<2>& model) : grid_(model.grid) {
-    for (const Run& run : state.blocks.runs) {
+    for (const Run& run : state.order.runs) {
       if (model.is_whole(model.materials[run.material].field)) continue;  // no crack parts it
       for (std::size_t p = std::size_t{run.first_pack} * lanes; p < std::size_t{run.end_pack} * lanes; ++p) {
         if (state.particles.is_padding(p)) continue;
@@ -114,7 +114,8 @@ struct LinearFit {
 
 class CarrierChoice {
  public:
-  CarrierChoice(const State<2>& state, const Model<2>& model) : state_(state), model_(model), surfaces_(state, model), map_(state, model) {}
+  CarrierChoice(const State<2>& state, const StepWork<2>& work, const Model<2>& model)
+      : state_(state), work_(work), model_(model), surfaces_(work, model), map_(state, model) {}
 
   /// Of the side of `from`, which is x or a hair beside it.
   std::vector<Carrier> carriers(const Vec<2>& x, const Vec<2>& from) const {
@@ -202,14 +203,15 @@ class CarrierChoice {
   static bool within(const Vec<2>& y, double reach) { return std::fabs(y[0]) < reach && std::fabs(y[1]) < reach; }
 
   const State<2>& state_;
+  const StepWork<2>& work_;
   const Model<2>& model_;
   CrackSurfaces surfaces_;
   ParticleMap map_;
 };
 
-void choose_for_all(State<2>& state, const Model<2>& model) {
-  const CarrierChoice choice(state, model);
-  const CrackSurfaces surfaces(state, model);
+void choose_for_all(State<2>& state, StepWork<2>& work, const Model<2>& model) {
+  const CarrierChoice choice(state, work, model);
+  const CrackSurfaces surfaces(work, model);
   for (Crack<2>& crack : state.cracks.list) {
     crack.upper_carriers.resize(crack.plane.size());
     crack.lower_carriers.resize(crack.plane.size());
@@ -225,31 +227,31 @@ void choose_for_all(State<2>& state, const Model<2>& model) {
 }  // namespace
 
 template <int Dim, class Shape>
-void choose_carriers(State<Dim>& state, const Model<Dim>& model) {
+void choose_carriers(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   if (state.cracks.empty() || !state.cracks.list.front().upper_carriers.empty()) return;
   if constexpr (Dim == 2) {  // the input admits cracks in 2D only
-    view_cracks(state, model, Shape::width == 3 ? 1 : 0);
-    choose_for_all(state, model);
+    view_cracks(state, work, model, Shape::width == 3 ? 1 : 0);
+    choose_for_all(state, work, model);
   }
 }
 
 template <int Dim>
-void drop_lost_carriers(State<Dim>& state) {
+void drop_lost_carriers(State<Dim>& state, StepWork<Dim>& work) {
   for (auto& crack : state.cracks.list) {
     for (Carriers* side : {&crack.upper_carriers, &crack.lower_carriers}) {
       for (std::vector<Carrier>& carriers : *side) {
         const bool lost = std::any_of(carriers.begin(), carriers.end(),
-                                      [&](const Carrier& c) { return state.places.slot_of_id[c.particle] == padding_id; });
+                                      [&](const Carrier& c) { return work.places.slot_of_id[c.particle] == padding_id; });
         if (lost) carriers.clear();
       }
     }
   }
 }
 
-Vec<2> carried_displacement(const State<2>& state, const std::vector<Carrier>& carriers, PositionTime time) {
+Vec<2> carried_displacement(const State<2>& state, const StepWork<2>& work, const std::vector<Carrier>& carriers, PositionTime time) {
   Vec<2> sum{};
   for (const Carrier& c : carriers) {
-    const std::uint32_t slot = state.places.slot_of_id[c.particle];
+    const std::uint32_t slot = work.places.slot_of_id[c.particle];
     const Particles<2>& particles = state.particles;
     const Vec<2> x = time == PositionTime::present ? particles.present_position(slot) : particles.position(slot),
                  u = x - particles.original[slot];
@@ -259,19 +261,19 @@ Vec<2> carried_displacement(const State<2>& state, const std::vector<Carrier>& c
 }
 
 template <class Shape>
-void find_nodes_of_point(const State<2>& state, const Model<2>& model, const std::vector<Carrier>& carriers,
+void find_nodes_of_point(const State<2>& state, const StepWork<2>& work, const Model<2>& model, const std::vector<Carrier>& carriers,
                          std::vector<NodeOfPoint>& nodes) {
   using T = Tile<2, Shape>;
   nodes.clear();
   StencilFactors<2, Shape> factors;
   for (const Carrier& carrier : carriers) {
-    const std::uint32_t slot = state.places.slot_of_id[carrier.particle], pack = slot / lanes;
-    const std::uint32_t b = state.places.block_of_pack[pack];
-    const Block<2>& block = state.blocks.list[b];
-    const BlockLayers<2>& layers = state.nodes.layers[b];
-    BlockStencils<2, Shape> stencils(state, model, b);
+    const std::uint32_t slot = work.places.slot_of_id[carrier.particle], pack = slot / lanes;
+    const std::uint32_t b = work.places.block_of_pack[pack];
+    const Block<2>& block = work.blocks.list[b];
+    const BlockLayers<2>& layers = work.nodes.layers[b];
+    BlockStencils<2, Shape> stencils(state, work, model, b);
     std::uint32_t r = block.first_run;
-    while (pack >= state.blocks.runs[r].end_pack) ++r;
+    while (pack >= state.order.runs[r].end_pack) ++r;
     stencils.enter_run(r);
     stencils.compute(pack, factors);
     const PairTarget* targets = stencils.targets(pack);
@@ -293,7 +295,7 @@ void find_nodes_of_point(const State<2>& state, const Model<2>& model, const std
       }
       NodeOfPoint at;
       at.block = block.neighbours[neighbour];
-      const BlockLayers<2>& there = state.nodes.layers[at.block];
+      const BlockLayers<2>& there = work.nodes.layers[at.block];
       at.slot = there.slot(layer_of<2>(there.node, layers.tile[target.layer]), local[1] * block_side + local[0]);
       at.flip = static_cast<std::uint8_t>(carrier.flip ^ target.flip);
       auto same = std::find_if(nodes.begin(), nodes.end(), [&](const NodeOfPoint& q) { return q.slot == at.slot && q.flip == at.flip; });
@@ -303,14 +305,18 @@ void find_nodes_of_point(const State<2>& state, const Model<2>& model, const std
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void choose_carriers<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void choose_carriers<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
-template void drop_lost_carriers<2>(State<2>&);
-template void drop_lost_carriers<3>(State<3>&);
-template void find_nodes_of_point<LinearShape>(const State<2>&, const Model<2>&, const std::vector<Carrier>&, std::vector<NodeOfPoint>&);
-template void find_nodes_of_point<GimpShape>(const State<2>&, const Model<2>&, const std::vector<Carrier>&, std::vector<NodeOfPoint>&);
-template void find_nodes_of_point<CpdiShape>(const State<2>&, const Model<2>&, const std::vector<Carrier>&, std::vector<NodeOfPoint>&);
-template void find_nodes_of_point<BsplineShape>(const State<2>&, const Model<2>&, const std::vector<Carrier>&, std::vector<NodeOfPoint>&);
+template void drop_lost_carriers<2>(State<2>&, StepWork<2>&);
+template void drop_lost_carriers<3>(State<3>&, StepWork<3>&);
+template void find_nodes_of_point<LinearShape>(const State<2>&, const StepWork<2>&, const Model<2>&, const std::vector<Carrier>&,
+                                               std::vector<NodeOfPoint>&);
+template void find_nodes_of_point<GimpShape>(const State<2>&, const StepWork<2>&, const Model<2>&, const std::vector<Carrier>&,
+                                             std::vector<NodeOfPoint>&);
+template void find_nodes_of_point<CpdiShape>(const State<2>&, const StepWork<2>&, const Model<2>&, const std::vector<Carrier>&,
+                                             std::vector<NodeOfPoint>&);
+template void find_nodes_of_point<BsplineShape>(const State<2>&, const StepWork<2>&, const Model<2>&, const std::vector<Carrier>&,
+                                                std::vector<NodeOfPoint>&);
 
 }  // namespace crampon

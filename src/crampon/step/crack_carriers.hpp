@@ -6,23 +6,23 @@
 #include <array>
 
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
 /// Chooses the carriers of all surface points, once, where particles and cracks are at the start. Fills State::crack_view.
 template <int Dim, class Shape>
-void choose_carriers(State<Dim>& state, const Model<Dim>& model);
+void choose_carriers(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 /// Takes its carriers from a point that has lost one, since they no longer say where it is. After particles were removed.
 template <int Dim>
-void drop_lost_carriers(State<Dim>& state);
+void drop_lost_carriers(State<Dim>& state, StepWork<Dim>& work);
 
 /// Where positions are taken: in the middle of the coming step, with which the step works, or at the present time.
 enum class PositionTime { leading, present };
 
 /// Displacement of a point since the start, m. It has carriers.
-Vec<2> carried_displacement(const State<2>& state, const std::vector<Carrier>& carriers, PositionTime time);
+Vec<2> carried_displacement(const State<2>& state, const StepWork<2>& work, const std::vector<Carrier>& carriers, PositionTime time);
 
 /// A part of what moves a surface point: the velocity of a node in one field, with component k reversed where bit k of flip is set.
 struct NodeOfPoint {
@@ -35,7 +35,7 @@ struct NodeOfPoint {
 /// The nodes that carriers take their velocity from: a point moves with sum w v, and a force f on it gives them w f. None twice with the
 /// same flip; in the order of discovery. Overwrites `nodes`.
 template <class Shape>
-void find_nodes_of_point(const State<2>& state, const Model<2>& model, const std::vector<Carrier>& carriers,
+void find_nodes_of_point(const State<2>& state, const StepWork<2>& work, const Model<2>& model, const std::vector<Carrier>& carriers,
                          std::vector<NodeOfPoint>& nodes);
 
 }  // namespace crampon

@@ -47,7 +47,7 @@ Vec<2> vertex_normal(const Crack<2>& crack, std::size_t v) {
   return normalized(in_mirrors == Vec<2>{} ? n : in_mirrors);
 }
 
-ForNodes<NodeShare> nodes_around(const State<2>& state, const Model<2>& model, const Vec<2>& x) {
+ForNodes<NodeShare> nodes_around(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x) {
   const Grid<2>& grid = model.grid;
   ForNodes<NodeShare> out;
   const bool bspline = by_bsplines(model);
@@ -60,7 +60,7 @@ ForNodes<NodeShare> nodes_around(const State<2>& state, const Model<2>& model, c
       if (S == 0 || node[0] < -block_side || node[1] < -block_side) continue;
       const IndexVector<2> block{Grid<2>::block_of(node[0]), Grid<2>::block_of(node[1])};
       if (block[0] >= grid.blocks[0] || block[1] >= grid.blocks[1]) continue;
-      const std::uint32_t there = state.blocks.of_number[static_cast<std::size_t>(grid.block_number(block))];
+      const std::uint32_t there = work.blocks.of_number[static_cast<std::size_t>(grid.block_number(block))];
       const int local = (node[1] - Grid<2>::first_node(block[1])) * block_side + node[0] - Grid<2>::first_node(block[0]);
       if (there != no_block) out.push_back({S, grid.node_position(node), there, local});
     }

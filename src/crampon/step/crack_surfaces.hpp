@@ -6,7 +6,7 @@
 #include <span>
 
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -41,13 +41,13 @@ struct NodeShare {
 };
 
 /// The nodes that S reaches from x, of blocks that are there.
-ForNodes<NodeShare> nodes_around(const State<2>& state, const Model<2>& model, const Vec<2>& x);
+ForNodes<NodeShare> nodes_around(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x);
 
 /// What can be seen from beside a crack, of the cracks as State::crack_view has them.
 class CrackSurfaces {
  public:
-  CrackSurfaces(const State<2>& state, const Model<2>& model)
-      : model_(model), view_(state.crack_view), nudge_(1e-8 * model.grid.smallest_cell()) {}
+  CrackSurfaces(const StepWork<2>& work, const Model<2>& model)
+      : model_(model), view_(work.crack_view), nudge_(1e-8 * model.grid.smallest_cell()) {}
 
   /// A hair beside a vertex of the plane, to the side of the unit vector `out`. On a mirror, where the path ends but not the crack, a little
   /// inside the body.

@@ -12,20 +12,20 @@ namespace crampon {
 namespace {
 
 /// What a force on a surface point moves: with a share w of it for each node, 1/sum(w^2/m), kg.
-double moved_mass(const State<2>& state, const std::vector<NodeOfPoint>& nodes) {
+double moved_mass(const StepWork<2>& work, const std::vector<NodeOfPoint>& nodes) {
   double sum = 0;
-  for (const NodeOfPoint& on : nodes) sum += on.weight * on.weight / state.nodes.momentum[on.slot][2];
+  for (const NodeOfPoint& on : nodes) sum += on.weight * on.weight / work.nodes.momentum[on.slot][2];
   return 1 / sum;
 }
 
 /// Gives a force on a surface point to the nodes that move it.
-void share_force(State<2>& state, const std::vector<NodeOfPoint>& nodes, const Vec<2>& f) {
+void share_force(StepWork<2>& work, const std::vector<NodeOfPoint>& nodes, const Vec<2>& f) {
   for (const NodeOfPoint& on : nodes) {
     Vec<2> share = f * on.weight;
     for (int k = 0; k < 2; ++k) {
       if (on.flip >> k & 1u) share[k] = -share[k];
     }
-    state.scratch[on.block].tractions.push_back({on.slot, share});
+    work.scratch[on.block].tractions.push_back({on.slot, share});
   }
 }
 
@@ -33,10 +33,9 @@ void share_force(State<2>& state, const std::vector<NodeOfPoint>& nodes, const V
 
 template <>
 void start_tractions<2>(State<2>& state, const Model<2>& model) {
-  state.tractions.resize(state.cracks.size());
   for (std::size_t c = 0; c < state.cracks.size(); ++c) {
     const Crack<2>& crack = state.cracks.list[c];
-    CrackTractionState<2>& t = state.tractions[c];
+    CrackTractionState<2>& t = state.cracks.list[c].traction;
     const std::size_t n = crack.plane.size();
     if (!model.tractions[c].acts()) continue;
     t.history.assign(n, {});
@@ -47,55 +46,61 @@ void start_tractions<2>(State<2>& state, const Model<2>& model) {
 }
 
 template <int Dim, class Shape>
-StiffestVertex spread_tractions(State<Dim>& state, const Model<Dim>& model) {
+StiffestVertex spread_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   StiffestVertex stiffest;
   if constexpr (Dim == 2) {
-    for (auto& scratch : state.scratch) scratch.tractions.clear();
+    for (auto& scratch : work.scratch) scratch.tractions.clear();
     const double cell = std::fmax(model.grid.cell[0], model.grid.cell[1]);
     std::vector<NodeOfPoint> above, below;
     for (std::size_t c = 0; c < state.cracks.size(); ++c) {
       const Crack<2>& crack = state.cracks.list[c];
-      CrackTractionState<2>& t = state.tractions[c];
+      CrackTractionState<2>& t = state.cracks.list[c].traction;
       const std::vector<double>& area = model.tractions[c].area;
       const double stiffness = largest_stiffness(model.tractions[c].law);
       for (std::size_t v = 0; v < area.size(); ++v) {
         if (area[v] == 0 || t.history[v].failed != 0) continue;
         t.between[v] = !crack.upper_carriers[v].empty() && !crack.lower_carriers[v].empty();
         if (!t.between[v]) continue;  // a side without material bears nothing, and neither does the other then
-        find_nodes_of_point<Shape>(state, model, crack.upper_carriers[v], above);
-        find_nodes_of_point<Shape>(state, model, crack.lower_carriers[v], below);
-        share_force(state, above, t.force[v]);
-        share_force(state, below, -t.force[v]);
+        find_nodes_of_point<Shape>(state, work, model, crack.upper_carriers[v], above);
+        find_nodes_of_point<Shape>(state, work, model, crack.lower_carriers[v], below);
+        share_force(work, above, t.force[v]);
+        share_force(work, below, -t.force[v]);
         if (!(stiffness > 0)) continue;
         // The nodes about a vertex bear the springs of a whole cell of crack (docs/theory/traction.md, time step).
-        const double m_a = moved_mass(state, above), m_b = moved_mass(state, below);
+        const double m_a = moved_mass(work, above), m_b = moved_mass(work, below);
         const double spring = stiffness * std::fmax(area[v], cell * model.tractions[c].thickness);
         const double longest = std::sqrt(m_a * m_b / ((m_a + m_b) * spring));
         if (longest < stiffest.time_step) stiffest = {longest, c, v};
       }
     }
-    state.traction_time_step = stiffest.time_step;
-    state.least_traction_time_step = std::fmin(state.least_traction_time_step, state.traction_time_step);
+    state.clock.traction_time_step = stiffest.time_step;
+    state.clock.least_traction_time_step = std::fmin(state.clock.least_traction_time_step, state.clock.traction_time_step);
   }
   return stiffest;
 }
 
+template <int Dim, class Shape>
+void share_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  spread_tractions<Dim, Shape>(state, work, model);
+}
+
 template <int Dim>
-void add_tractions(State<Dim>& state, std::size_t b) {
-  for (const NodalForce<Dim>& load : state.scratch[b].tractions) {
-    for (int k = 0; k < Dim; ++k) state.nodes.force[load.slot][k] += load.force[k];
+void add_tractions(StepWork<Dim>& work, std::size_t b) {
+  for (const NodalForce<Dim>& load : work.scratch[b].tractions) {
+    for (int k = 0; k < Dim; ++k) work.nodes.force[load.slot][k] += load.force[k];
   }
 }
 
 template <>
-void update_tractions<2>(State<2>& state, const Model<2>& model, double end) {
+void update_tractions<2>(State<2>& state, StepWork<2>& work, const Model<2>& model) {
+  const double end = state.clock.time + work.now.dt;
   if (!model.any_tractions()) return;
-  CohesiveTotals& totals = state.cohesive;
+  CohesiveTotals& totals = state.ledger.cohesive;
   totals = {};
   for (std::size_t c = 0; c < state.cracks.size(); ++c) {
     const Crack<2>& crack = state.cracks.list[c];
     const CrackTraction& traction = model.tractions[c];
-    CrackTractionState<2>& t = state.tractions[c];
+    CrackTractionState<2>& t = state.cracks.list[c].traction;
     const std::vector<double>& area = traction.area;
     const bool from_outside = std::holds_alternative<PressureTraction>(traction.law);
     for (std::size_t v = 0; v < area.size(); ++v) {
@@ -109,7 +114,8 @@ void update_tractions<2>(State<2>& state, const Model<2>& model, double end) {
         t.force[v] = (down * now.normal - tangent * now.shear) * area[v];
         t.stored[v] = now.stored;
         if (history.failed != 0) {
-          state.events.push_back({end, c, present_crack(state, crack).plane[v], history.dissipated_normal, history.dissipated_shear});
+          state.ledger.failures.push_back(
+              {end, c, present_crack(state, work, crack).plane[v], history.dissipated_normal, history.dissipated_shear});
           t.force[v] = {};
           t.stored[v] = 0;
         }
@@ -126,10 +132,12 @@ void update_tractions<2>(State<2>& state, const Model<2>& model, double end) {
 template <>
 void start_tractions<3>(State<3>&, const Model<3>&) {}
 template <>
-void update_tractions<3>(State<3>&, const Model<3>&, double) {}
-template void add_tractions<2>(State<2>&, std::size_t);
-template void add_tractions<3>(State<3>&, std::size_t);
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template StiffestVertex spread_tractions<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
+void update_tractions<3>(State<3>&, StepWork<3>&, const Model<3>&) {}
+template void add_tractions<2>(StepWork<2>&, std::size_t);
+template void add_tractions<3>(StepWork<3>&, std::size_t);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                 \
+  template StiffestVertex spread_tractions<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&); \
+  template void share_tractions<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -19,16 +19,20 @@ struct StiffestVertex {
   std::size_t crack = 0, vertex = 0;
 };
 
-/// Between Tasks 2 and 3: shares the forces on the surface points among the nodes that move them; finds State::traction_time_step. Serial.
+/// Between Tasks 2 and 3: shares the forces on the surface points among the nodes that move them; finds Clock::traction_time_step. Serial.
 template <int Dim, class Shape>
-StiffestVertex spread_tractions(State<Dim>& state, const Model<Dim>& model);
+StiffestVertex spread_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// The same as a stage of the step.
+template <int Dim, class Shape>
+void share_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 /// Task 3, own nodes of a block: adds them.
 template <int Dim>
-void add_tractions(State<Dim>& state, std::size_t block);
+void add_tractions(StepWork<Dim>& work, std::size_t block);
 
-/// Task 8, after the cracks have moved: tractions where they are now, what is stored and dissipated, and failures. end: of the step, s. Serial.
+/// Task 8, after the cracks have moved: tractions where they are now, what is stored and dissipated, and failures. Serial.
 template <int Dim>
-void update_tractions(State<Dim>& state, const Model<Dim>& model, double end);
+void update_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 }  // namespace crampon

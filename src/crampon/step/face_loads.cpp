@@ -110,8 +110,8 @@ void for_links(const LoadedFaces<Dim>& faces, std::uint32_t particle, F f) {
 }  // namespace
 
 template <int Dim>
-void start_face_loads(State<Dim>& state, const Model<Dim>& model) {
-  FaceStates<Dim>& s = state.faces;
+void start_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  FaceStates<Dim>& s = work.faces;
   std::array<double, Dim * Dim> identity{};
   for (std::size_t k = 0; k < Dim; ++k) identity[k * Dim + k] = 1;
   s.deformation.assign(model.faces.particles.size(), identity);
@@ -119,9 +119,9 @@ void start_face_loads(State<Dim>& state, const Model<Dim>& model) {
   s.sum.assign(model.faces.links.size(), 0);
   s.traction.assign(model.faces.columns.size(), {});
   s.rest.assign(model.faces.columns.size(), 0);
-  s.area_vector.assign(model.faces.columns.size(), {});
-  for (std::size_t c = 0; c < model.faces.columns.size(); ++c)
-    s.area_vector[c][model.faces.columns[c].axis] = model.faces.columns[c].direction;
+  std::vector<Vec<Dim>>& areas = state.ledger.face_areas;
+  areas.assign(model.faces.columns.size(), {});
+  for (std::size_t c = 0; c < model.faces.columns.size(); ++c) areas[c][model.faces.columns[c].axis] = model.faces.columns[c].direction;
 }
 
 namespace {
@@ -130,9 +130,13 @@ namespace {
 template <int Dim, class Shape>
 class DeformationNow {
  public:
-  DeformationNow(const State<Dim>& state, const Model<Dim>& model, std::size_t b, double stress_dt)
-      : state_(state), model_(model), block_(b), stress_dt_(Shape::has_domains ? 0. : stress_dt) {
-    if (stress_dt_ > 0) velocity_ = gathered<Dim, Shape>(state, b, state.nodes.velocity);
+  DeformationNow(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b)
+      : state_(state),
+        work_(work),
+        model_(model),
+        block_(b),
+        stress_dt_(Shape::has_domains || !updates_stress_first(model) ? 0. : work.now.stress_dt) {
+    if (stress_dt_ > 0) velocity_ = gathered<Dim, Shape>(work, b, work.nodes.velocity);
   }
   /// F[d * Dim + k]
   void find(std::size_t pack, const Material<Dim>& material, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, Pack* F) const {
@@ -148,7 +152,7 @@ class DeformationNow {
                               particles.history.data() + pack * static_cast<std::size_t>(particles.history_size), F);
     if (stress_dt_ == 0) return;
     Pack L[Dim * Dim];
-    gradient<Dim, Shape>(stencil, targets, state_.nodes.layers[block_].offsets.start.data(), velocity_, L);
+    gradient<Dim, Shape>(stencil, targets, work_.nodes.layers[block_].offsets.start.data(), velocity_, L);
     if (material.law->follows_deformation()) {
       take_to_middle<Dim>(L, way_to_middle(model_, stress_dt_));
       advance_deformation<Dim>(L, stress_dt_, F);
@@ -161,6 +165,7 @@ class DeformationNow {
 
  private:
   const State<Dim>& state_;
+  const StepWork<Dim>& work_;
   const Model<Dim>& model_;
   std::size_t block_;
   double stress_dt_;
@@ -170,15 +175,15 @@ class DeformationNow {
 }  // namespace
 
 template <int Dim, class Shape>
-void weigh_face_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double stress_dt) {
-  if (state.scratch[b].faces.empty()) return;
-  const auto first_node = state.blocks.list[b].first_node();
+void weigh_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  if (work.scratch[b].faces.empty()) return;
+  const auto first_node = work.blocks.list[b].first_node();
   const Particles<Dim>& particles = state.particles;
-  const DeformationNow<Dim, Shape> deformation(state, model, b, stress_dt);
+  const DeformationNow<Dim, Shape> deformation(state, work, model, b);
   std::size_t known = particles.packs;  // the pack whose deformation is at hand
   Pack F_pack[Dim * Dim], stretch = splat(1.);
   for_slots<Dim, Shape>(
-      state, model, b, state.scratch[b].faces,
+      state, work, model, b, work.scratch[b].faces,
       [&](const FaceParticle& of, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, const Run& run) {
         const std::size_t pack = of.slot / lanes;
         const Material<Dim>& material = model.materials[run.material];
@@ -192,17 +197,17 @@ void weigh_face_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b,
             stretch = report.volume_ratio / report.area_ratio;  // of the thickness
           }
         }
-        auto& F = state.faces.deformation[of.number];
+        auto& F = work.faces.deformation[of.number];
         for (std::size_t c = 0; c < Dim * Dim; ++c) F[c] = F_pack[c][l];
         const Vec<Dim> x_p = particles.position(of.slot);
         for_links(model.faces, of.number, [&](std::uint32_t number, const FaceLink& link, const FaceColumn& column) {
           if (column.surface == of.number && !link.mirrored) {
-            state.faces.area_vector[link.column] = column_of<Dim>(cofactor<Dim>(F), column.axis) * (column.direction * stretch[l]);
+            state.ledger.face_areas[link.column] = column_of<Dim>(cofactor<Dim>(F), column.axis) * (column.direction * stretch[l]);
           }
           double sum = 0;
           const LinkWeights<Dim, Shape> weights(model.grid, reaching_half_size<Dim, Shape>(material), link, column, F, x_p);
           for_nodes<Dim, Shape>(weights, model.grid, first_node, stencil, l, [&](double w, double, int) { sum += w; });
-          state.faces.sum[number] = sum;
+          work.faces.sum[number] = sum;
         });
       });
 }
@@ -217,8 +222,9 @@ Vec<Dim> traction_on(const Load<Dim>& load, const FaceColumn& column, const Vec<
 }  // namespace
 
 template <int Dim>
-void settle_face_loads(State<Dim>& state, const Model<Dim>& model, const std::vector<Vec<Dim>>& load_values) {
-  FaceStates<Dim>& s = state.faces;
+void settle_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  const std::vector<Vec<Dim>>& load_values = work.prescribed.loads;
+  FaceStates<Dim>& s = work.faces;
   for (std::size_t c = 0; c < model.faces.columns.size(); ++c) {
     const FaceColumn& column = model.faces.columns[c];
     double sum = 0;
@@ -230,23 +236,25 @@ void settle_face_loads(State<Dim>& state, const Model<Dim>& model, const std::ve
     }
     const bool there = s.present[column.surface];  // what has left the grid takes its face along
     s.rest[c] = there ? (column.area - sum) / links : 0.;
-    s.traction[c] = there ? traction_on(model.loads[column.load], column, s.area_vector[c], load_values[column.load]) : Vec<Dim>{};
+    s.traction[c] =
+        there ? traction_on(model.loads[column.load], column, state.ledger.face_areas[c], load_values[column.load]) : Vec<Dim>{};
   }
 }
 
 template <int Dim, class Shape>
-void for_face_forces(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const FaceForceVisitor<Dim, Shape>& visit) {
-  const auto first_node = state.blocks.list[b].first_node();
-  for_slots<Dim, Shape>(state, model, b, state.scratch[b].faces,
+void for_face_forces(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
+                     const FaceForceVisitor<Dim, Shape>& visit) {
+  const auto first_node = work.blocks.list[b].first_node();
+  for_slots<Dim, Shape>(state, work, model, b, work.scratch[b].faces,
                         [&](const FaceParticle& of, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, const Run& run) {
                           const Vec<Dim> x_p = state.particles.position(of.slot);
                           for_links(model.faces, of.number, [&](std::uint32_t, const FaceLink& link, const FaceColumn& column) {
                             NodalVector<Dim> t = splat_as<NodalVector<Dim>>(0.);
-                            for (int k = 0; k < Dim; ++k) t[k] = state.faces.traction[link.column][k];
+                            for (int k = 0; k < Dim; ++k) t[k] = work.faces.traction[link.column][k];
                             if (link.mirrored) t[column.axis] = -t[column.axis];
-                            const double rest = state.faces.rest[link.column];
+                            const double rest = work.faces.rest[link.column];
                             const LinkWeights<Dim, Shape> weights(model.grid, reaching_half_size<Dim, Shape>(model.materials[run.material]),
-                                                                  link, column, state.faces.deformation[of.number], x_p);
+                                                                  link, column, work.faces.deformation[of.number], x_p);
                             for_nodes<Dim, Shape>(weights, model.grid, first_node, stencil, l, [&](double w, double S, int n) {
                               visit(of.slot, stencil, l, targets, n, splat_as<NodalVector<Dim>>(w + S * rest) * t);
                             });
@@ -255,10 +263,11 @@ void for_face_forces(const State<Dim>& state, const Model<Dim>& model, std::size
 }
 
 template <int Dim, class Shape>
-void project_face_loads(const State<Dim>& state, const Model<Dim>& model, std::size_t b, NodalVector<Dim>* tiles) {
+void project_face_loads(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
+                        NodalVector<Dim>* tiles) {
   using T = Tile<Dim, Shape>;
   for_face_forces<Dim, Shape>(
-      state, model, b,
+      state, work, model, b,
       [&](std::uint32_t, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, int n, const NodalVector<Dim>& f) {
         const PairTarget* pair = targets ? &targets[l * T::stencil + n] : nullptr;
         tiles[pair ? pair->layer * T::nodes + pair->node : stencil.of.base[l] + T::steps[n]] += flipped(f, pair ? pair->flip : 0u);
@@ -266,38 +275,39 @@ void project_face_loads(const State<Dim>& state, const Model<Dim>& model, std::s
 }
 
 template <int Dim>
-std::vector<Vec<Dim>> total_loads(const State<Dim>& state, const Model<Dim>& model, double t) {
+std::vector<Vec<Dim>> total_loads(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, double t) {
   std::vector<Vec<Dim>> total(model.loads.size()), value(model.loads.size());
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
     for (int k = 0; k < Dim; ++k) value[l][k] = model.loads[l].value[static_cast<std::size_t>(k)](t, {});
-    if (state.removed == 0) {
+    if (state.ledger.removed == 0) {
       for (const double share : model.loads[l].share) total[l] += value[l] * share;
     }
   }
-  if (state.removed > 0) {
-    for (const auto& scratch : state.scratch) {
+  if (state.ledger.removed > 0) {
+    for (const auto& scratch : work.scratch) {
       for (const LoadedParticle& p : scratch.loaded) total[p.load] += value[p.load] * model.loads[p.load].share[p.entry];
     }
   }
   for (std::size_t c = 0; c < model.faces.columns.size(); ++c) {
     const FaceColumn& column = model.faces.columns[c];
-    if (!state.faces.present[column.surface]) continue;
-    total[column.load] += traction_on(model.loads[column.load], column, state.faces.area_vector[c], value[column.load]) * column.area;
+    if (!work.faces.present[column.surface]) continue;
+    total[column.load] += traction_on(model.loads[column.load], column, state.ledger.face_areas[c], value[column.load]) * column.area;
   }
   return total;
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                      \
-  template void start_face_loads<DIM>(State<DIM>&, const Model<DIM>&);                                \
-  template void settle_face_loads<DIM>(State<DIM>&, const Model<DIM>&, const std::vector<Vec<DIM>>&); \
-  template std::vector<Vec<DIM>> total_loads<DIM>(const State<DIM>&, const Model<DIM>&, double);
+#define CRAMPON_INSTANTIATE(DIM)                                                        \
+  template void start_face_loads<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);  \
+  template void settle_face_loads<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&); \
+  template std::vector<Vec<DIM>> total_loads<DIM>(const State<DIM>&, const StepWork<DIM>&, const Model<DIM>&, double);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                              \
-  template void weigh_face_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);                                   \
-  template void for_face_forces<DIM, SHAPE>(const State<DIM>&, const Model<DIM>&, std::size_t, const FaceForceVisitor<DIM, SHAPE>&); \
-  template void project_face_loads<DIM, SHAPE>(const State<DIM>&, const Model<DIM>&, std::size_t, NodalVector<DIM>*);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                              \
+  template void weigh_face_loads<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);           \
+  template void for_face_forces<DIM, SHAPE>(const State<DIM>&, const StepWork<DIM>&, const Model<DIM>&, std::size_t, \
+                                            const FaceForceVisitor<DIM, SHAPE>&);                                    \
+  template void project_face_loads<DIM, SHAPE>(const State<DIM>&, const StepWork<DIM>&, const Model<DIM>&, std::size_t, NodalVector<DIM>*);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

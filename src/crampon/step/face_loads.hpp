@@ -9,30 +9,32 @@ namespace crampon {
 
 /// The faces at the start of the run.
 template <int Dim>
-void start_face_loads(State<Dim>& state, const Model<Dim>& model);
+void start_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
-/// What the links of a block's particles sum to over all nodes, how the particles are deformed, and the faces of the outermost ones. stress_dt:
-/// by which laws are behind positions and about to follow with the velocities of nodes, s.
+/// What the links of a block's particles sum to over all nodes, how the particles are deformed, and the faces of the outermost ones.
+/// Where stress goes first, laws are behind positions here, and are about to follow with the velocities of nodes.
 template <int Dim, class Shape>
-void weigh_face_loads(State<Dim>& state, const Model<Dim>& model, std::size_t block, double stress_dt);
+void weigh_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 /// The traction of each column, and what its links lack. load_values: per load and component, Pa. Serial.
 template <int Dim>
-void settle_face_loads(State<Dim>& state, const Model<Dim>& model, const std::vector<Vec<Dim>>& load_values);
+void settle_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 /// Sees a force on the pair of a particle, by its slot, and node n of its stencil at lane l, as if no symmetry plane folded the pair, N.
 template <int Dim, class Shape>
 using FaceForceVisitor = std::function<void(std::uint32_t slot, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, int n,
                                             const NodalVector<Dim>& force)>;
 template <int Dim, class Shape>
-void for_face_forces(const State<Dim>& state, const Model<Dim>& model, std::size_t block, const FaceForceVisitor<Dim, Shape>& visit);
+void for_face_forces(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t block,
+                     const FaceForceVisitor<Dim, Shape>& visit);
 
 /// Adds the forces of the links of a block's particles to a tile, all layers, N.
 template <int Dim, class Shape>
-void project_face_loads(const State<Dim>& state, const Model<Dim>& model, std::size_t block, NodalVector<Dim>* tiles);
+void project_face_loads(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t block,
+                        NodalVector<Dim>* tiles);
 
 /// Force of every load on all that it acts on, N, with values at time t (s).
 template <int Dim>
-std::vector<Vec<Dim>> total_loads(const State<Dim>& state, const Model<Dim>& model, double t);
+std::vector<Vec<Dim>> total_loads(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, double t);
 
 }  // namespace crampon

@@ -87,7 +87,7 @@ template <int Dim>
 void FaceSampler<Dim>::sample_sums(const FaceGroup<Dim>& group, const std::size_t* slots, const FacePart<Dim>& part,
                                    std::vector<FaceSample<Dim>>& out) const {
   Vec<Dim> mean;
-  for (std::uint32_t s = group.first_slot; s < group.end_slot; ++s) mean += state_.nodes.contact[slots[s]].present();
+  for (std::uint32_t s = group.first_slot; s < group.end_slot; ++s) mean += work_.nodes.contact[slots[s]].present();
   mean = mean * (1 / group.m);
   const auto to_edge = [&](const Vec<Dim>& n) {
     const PlaneInCells plane = plane_in_cells(model_.grid.cell, n);

@@ -12,7 +12,7 @@ namespace crampon {
 template <int Dim>
 class FaceSampler {
  public:
-  FaceSampler(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {}
+  FaceSampler(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model) : state_(state), work_(work), model_(model) {}
 
   /// Adds samples for a part of a face to `out`: of the particles `points` of its group, or where nobody knows their surface, one of the group.
   /// slots: FaceNodes::slots of the block.
@@ -28,6 +28,7 @@ class FaceSampler {
   std::optional<FaceSample<Dim>> before_face(const FacePart<Dim>& part, const Vec<Dim>& x, const Vec<Dim>& to_surface, Along along) const;
 
   const State<Dim>& state_;
+  const StepWork<Dim>& work_;
   const Model<Dim>& model_;
 };
 

@@ -63,7 +63,8 @@ template Mirrors mirrors_at<2>(const Model<2>&, std::int64_t);
 template Mirrors mirrors_at<3>(const Model<3>&, std::int64_t);
 
 template <int Dim>
-FaceToFace<Dim>::FaceToFace(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {}
+FaceToFace<Dim>::FaceToFace(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model)
+    : state_(state), work_(work), model_(model) {}
 
 template <int Dim>
 bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const Face<Dim>& facing,
@@ -216,9 +217,9 @@ double FaceToFace<Dim>::gap_of_outlines(const MeetingPlace<Dim>& place, const Fa
 template <int Dim>
 double FaceToFace<Dim>::relative_volume(const MeetingPlace<Dim>& place) const {
   double reference = cell_volume();
-  if (model_.contact.reference_volume == ReferenceVolume::initial && !state_.initial_volume.empty()) {
-    const auto initial = state_.initial_volume.find(place.number);
-    if (initial != state_.initial_volume.end() && initial->second > 0) reference = initial->second * place.mirrors.images;
+  if (model_.contact.reference_volume == ReferenceVolume::initial && !state_.contacts.initial_volume.empty()) {
+    const auto initial = state_.contacts.initial_volume.find(place.number);
+    if (initial != state_.contacts.initial_volume.end() && initial->second > 0) reference = initial->second * place.mirrors.images;
   }
   return place.volume / reference;
 }

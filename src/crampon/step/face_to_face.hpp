@@ -11,7 +11,7 @@
 #include "crampon/contact/outline_gap.hpp"
 #include "crampon/step/contact_cloud.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -90,7 +90,7 @@ struct MeetingPlace {
 template <int Dim>
 class FaceToFace {
  public:
-  FaceToFace(const State<Dim>& state, const Model<Dim>& model);
+  FaceToFace(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model);
 
   /// These set normal, gap and area of a pair; false when there is no direction: nothing to hold against.
   /// Materials: `facing` gives law and normal, b itself or the most of what N13's virtual material b is made of.
@@ -121,6 +121,7 @@ class FaceToFace {
   Vec<Dim> found_normal(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b);
 
   const State<Dim>& state_;
+  const StepWork<Dim>& work_;
   const Model<Dim>& model_;
   std::vector<LabelledPoint<Dim>> labelled_;
   std::vector<OutlinedParticle<Dim>> outlined_;

@@ -1,9 +1,6 @@
 #include "crampon/step/filter_velocities.hpp"
 
-#include "crampon/step/adjust_contact.hpp"
-#include "crampon/step/boundary.hpp"
 #include "crampon/step/instantiate.hpp"
-#include "crampon/step/meet_faces.hpp"
 #include "crampon/step/packs.hpp"
 #include "crampon/step/rotation.hpp"
 #include "crampon/step/tile_buffer.hpp"
@@ -16,8 +13,8 @@ namespace {
 
 /// f(slot, in a deformable field) for the own nodes of a block in all layers.
 template <int Dim, class F>
-void for_slots(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F f) {
-  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+void for_nodes(const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, F f) {
+  const BlockLayers<Dim>& layers = work.nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
     const bool deformable = !model.is_rigid(layers.node[l].field);
     for (int n = 0; n < block_nodes<Dim>; ++n) f(layers.slot(l, n), deformable);
@@ -40,23 +37,27 @@ void set_moving(MotionRecord<Dim>& motion, NodalVector<Dim> v) {
 }  // namespace
 
 template <int Dim>
-void start_series(State<Dim>& state, const StepTransfer& transfer, std::size_t b, double dt) {
-  Nodes<Dim>& nodes = state.nodes;
+void start_series(StepWork<Dim>& work, std::size_t b) {
+  const double dt = work.now.dt;
+  const StepTransfer& transfer = work.now.transfer;
+  Nodes<Dim>& nodes = work.nodes;
   const std::size_t first = nodes.layers[b].slot(0, 0), end = nodes.layers[b].slot(nodes.layers[b].node.size(), 0);
   const NodalVector<Dim> back = splat_as<NodalVector<Dim>>(transfer.of_start ? dt : 0.);
   for (std::size_t i = first; i < end; ++i) nodes.velocity[i] = moving(nodes.motion[i]) - back * acceleration(nodes.motion[i]);
 }
 
 template <int Dim, class Shape>
-void project_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer& transfer, std::size_t b, int term) {
-  if (!state.blocks.list[b].has_particles()) return;
-  const NodalVector<Dim>* w = gathered<Dim, Shape>(state, b, state.nodes.velocity);
-  Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
-  const PairOffsets<Dim>& faces = state.nodes.layers[b].offsets;
+void project_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  const StepTransfer& transfer = work.now.transfer;
+  const int term = work.now.term;
+  if (!work.blocks.list[b].has_particles()) return;
+  const NodalVector<Dim>* w = gathered<Dim, Shape>(work, b, work.nodes.velocity);
+  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_momentum);
+  const PairOffsets<Dim>& faces = work.nodes.layers[b].offsets;
   // Faces move with the first term; in the others they stand still.
   std::vector<Pack> offsets = transfer.of_start ? faces.start : faces.end;
   if (term > 2) std::fill(offsets.begin(), offsets.end(), splat(0.));
-  for_packs<Dim, Shape>(state, model, b,
+  for_packs<Dim, Shape>(state, work, model, b,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
                           const Pack m_p = state.particles.mass_volume[2 * std::size_t{pack}];
                           Pack record[lanes];
@@ -75,42 +76,40 @@ void project_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer
 }
 
 template <int Dim, class Shape>
-void gather_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer& transfer, std::size_t b, double dt) {
-  Nodes<Dim>& nodes = state.nodes;
+void gather_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  const StepTransfer& transfer = work.now.transfer;
+  const double dt = work.now.dt;
+  Nodes<Dim>& nodes = work.nodes;
   const BlockLayers<Dim>& layers = nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_momentum, &nodes.momentum[layers.slot(l, 0)]);
+    assemble_layer<Dim, Shape>(work, b, layers.node[l], nodes.tile_momentum, &nodes.momentum[layers.slot(l, 0)]);
   }
-  carry_rotation(state, b, &PieceRotation<Dim>::spin_term, (transfer.of_start ? 0. : dt) - state.particles.lead);
-  for_slots(state, model, b, [&](std::size_t i, bool deformable) {
+  carry_rotation(state, work, b, &PieceRotation<Dim>::spin_term, (transfer.of_start ? 0. : dt) - state.particles.lead);
+  for_nodes(work, model, b, [&](std::size_t i, bool deformable) {
     Pack& p = nodes.momentum[i];
     const double mass = p[Dim];
     p = deformable ? as_record<Dim>(nodes.velocity[i]) * splat(mass) - as_record<Dim>(leading<Dim>(p)) : splat(0.);
     p[Dim] = mass;
   });
-  start_meeting_faces(state, model, b, ContactTask::term);
 }
 
 template <int Dim>
-void add_term(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
-  Nodes<Dim>& nodes = state.nodes;
-  adjust_contact(state, model, b, ContactTask::term, dt);
-  take_face_impulses(state, model, b, ContactTask::term, dt);
-  clear_fixed_momenta(state, model, b);
-  for_slots(state, model, b, [&](std::size_t i, bool) {
+void add_term(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  Nodes<Dim>& nodes = work.nodes;
+  for_nodes(work, model, b, [&](std::size_t i, bool) {
     const Pack p = nodes.momentum[i];
     nodes.velocity[i] = leading<Dim>(p * splat(p[Dim] > 0 ? 1 / p[Dim] : 0.));
     set_moving(nodes.motion[i], moving(nodes.motion[i]) + nodes.velocity[i]);
   });
 }
 
-template void add_term<2>(State<2>&, const Model<2>&, std::size_t, double);
-template void add_term<3>(State<3>&, const Model<3>&, std::size_t, double);
-template void start_series<2>(State<2>&, const StepTransfer&, std::size_t, double);
-template void start_series<3>(State<3>&, const StepTransfer&, std::size_t, double);
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                          \
-  template void project_term<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, const StepTransfer&, std::size_t, int); \
-  template void gather_term<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, const StepTransfer&, std::size_t, double);
+template void add_term<2>(StepWork<2>&, const Model<2>&, std::size_t);
+template void add_term<3>(StepWork<3>&, const Model<3>&, std::size_t);
+template void start_series<2>(StepWork<2>&, std::size_t);
+template void start_series<3>(StepWork<3>&, std::size_t);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                \
+  template void project_term<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t); \
+  template void gather_term<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

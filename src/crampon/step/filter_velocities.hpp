@@ -3,24 +3,24 @@
 /// particles and back, A w = m^-1 S^T m S w, the terms of the series are w_1 = v, w_l = (I - A) w_(l-1), and v^(k) is the sum of the first k.
 
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
 /// First term, own nodes of a block: w = v at the start (XPIC) or at the end (FMPM) of the step, as Tasks 2 and 4 left it.
 template <int Dim>
-void start_series(State<Dim>& state, const StepTransfer& transfer, std::size_t block, double dt);
+void start_series(StepWork<Dim>& work, std::size_t block);
 
 /// Tile sums {m u, m} of a block's particles, u = sum S w, for term 2, 3, ...
 template <int Dim, class Shape>
-void project_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer& transfer, std::size_t block, int term);
+void project_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 /// Own nodes of a block: the next term w - A w. Faces that Task 4 found in contact part or slide by it no more than the state of their contact
 /// lets them.
 template <int Dim, class Shape>
-void gather_term(State<Dim>& state, const Model<Dim>& model, const StepTransfer& transfer, std::size_t b, double dt);
+void gather_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b);
 /// Adds it to the velocity that particles read. Prescribed components have none.
 template <int Dim>
-void add_term(State<Dim>& state, const Model<Dim>& model, std::size_t block, double dt);
+void add_term(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 }  // namespace crampon

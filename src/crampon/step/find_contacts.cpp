@@ -17,14 +17,15 @@ namespace {
 template <int Dim, class Shape>
 class NodeFinder {
  public:
-  NodeFinder(State<Dim>& state, const Model<Dim>& model, std::size_t b)
+  NodeFinder(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b)
       : state_(state),
+        work_(work),
         model_(model),
         b_(b),
-        layers_(state.nodes.layers[b]),
-        out_(state.scratch[b].contact),
+        layers_(work.nodes.layers[b]),
+        out_(work.scratch[b].contact),
         cloud_(empty_cloud()),
-        view_(state, model) {}
+        view_(state, work, model) {}
 
   void run() {
     for (int node = 0; node < block_nodes<Dim>; ++node) collect_fields(node);
@@ -52,8 +53,8 @@ class NodeFinder {
     cloud.clear();
     return cloud;
   }
-  std::int64_t number_of(int node) const { return model_.grid.node_number(state_.blocks.list[b_].node(node)); }
-  Vec<Dim> position_of(int node) const { return model_.grid.node_position(state_.blocks.list[b_].node(node)); }
+  std::int64_t number_of(int node) const { return model_.grid.node_number(work_.blocks.list[b_].node(node)); }
+  Vec<Dim> position_of(int node) const { return model_.grid.node_position(work_.blocks.list[b_].node(node)); }
   const Layer& layer(int l) const { return layers_.node[static_cast<std::size_t>(l)]; }
 
   /// Fields with mass and the groups that they form.
@@ -62,7 +63,7 @@ class NodeFinder {
     std::vector<int>& present = present_;
     present.clear();
     for (std::size_t l = 0; l < layers_.node.size(); ++l) {
-      if (state_.nodes.momentum[layers_.slot(l, node)][Dim] > 0 && model_.meets_at_nodes(model_.fields[layers_.node[l].field]))
+      if (work_.nodes.momentum[layers_.slot(l, node)][Dim] > 0 && model_.meets_at_nodes(model_.fields[layers_.node[l].field]))
         present.push_back(static_cast<int>(l));
     }
     if (present.size() < 2) return;
@@ -79,7 +80,7 @@ class NodeFinder {
     if (contact.end_group - contact.first_group > most_groups) {  // more than any node can make sense of: left alone
       out_.fields.resize(contact.first_field);
       out_.groups.resize(contact.first_group);
-      ++state_.scratch[b_].ledger.unsolved_nodes;
+      ++work_.scratch[b_].ledger.unsolved_nodes;
       return;
     }
     out_.nodes.push_back(contact);
@@ -95,7 +96,7 @@ class NodeFinder {
         break;
       }
     }
-    if (any) cloud_.template collect<Shape>(state_, model_, b_, wanted);
+    if (any) cloud_.template collect<Shape>(state_, work_, model_, b_, wanted);
   }
 
   void read_faces(const ContactNode<Dim>& node) {
@@ -104,10 +105,10 @@ class NodeFinder {
     for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
       const ContactField& field = out_.fields[f];
       const std::size_t i = layers_.slot(field.layer, node.node);
-      const ContactSums<Dim>& sums = state_.nodes.contact[i];
+      const ContactSums<Dim>& sums = work_.nodes.contact[i];
       Face<Dim> part;
       part.groups = only(field.group);
-      const double m = state_.nodes.momentum[i][Dim];
+      const double m = work_.nodes.momentum[i][Dim];
       part.m = mirrors.images * m;
       part.volume = part.field_volume = mirrors.images * sums.volume();
       part.x = mirrors.together(sums.present());
@@ -158,7 +159,7 @@ class NodeFinder {
   void collect_cracks(const ContactNode<Dim>& node) {
     cracks_.clear();
     for (std::size_t c = 0; c < layers_.node_cracks.size(); ++c) {
-      const CrossingSums& sum = state_.nodes.crossing[(layers_.crossing_node_begin + c) * block_nodes<Dim> + node.node];
+      const CrossingSums& sum = work_.nodes.crossing[(layers_.crossing_node_begin + c) * block_nodes<Dim> + node.node];
       if (sum.r[0][3] == 0) continue;
       CrackAtNode<Dim> crack;
       crack.crack = layers_.node_cracks[c];
@@ -170,7 +171,7 @@ class NodeFinder {
       cracks_.push_back(crack);
       out_.sides.push_back({node.number, crack.crack, static_cast<std::int8_t>((crack.side > 0 ? 1 : 0) - (crack.side < 0 ? 1 : 0))});
     }
-    if (cracks_.size() > 2) ++state_.scratch[b_].ledger.crowded_nodes;
+    if (cracks_.size() > 2) ++work_.scratch[b_].ledger.crowded_nodes;
   }
 
   // Materials inside a crack field (N13 sec. 2.3).
@@ -294,18 +295,19 @@ class NodeFinder {
 
   /// Where the node has changed sides of another crack, the pair was known under the other label.
   ContactState previous_state(std::int64_t number, const ContactPair<Dim>& pair) const {
-    if (state_.step == 0 && std::holds_alternative<AdhesiveContact>(*pair.law) && pair.gap <= 0.1 * model_.grid.smallest_cell())
+    if (state_.clock.step == 0 && std::holds_alternative<AdhesiveContact>(*pair.law) && pair.gap <= 0.1 * model_.grid.smallest_cell())
       return ContactState::stick;  // glued from the start
     ContactKey key{number, pair.name};
     for (const auto& k : cracks_) {
       if (k.crack == pair.name.crack || pair.name.rest.contains(k.crack) || joins(model_, model_.law_across(k.crack))) continue;
-      const double before = state_.memory.side(number, k.crack);
+      const double before = state_.contacts.side(number, k.crack);
       if (before * k.side < 0) key.name.others.toggle(k.crack);
     }
-    return state_.memory.find(key);
+    return state_.contacts.find(key);
   }
 
   State<Dim>& state_;
+  StepWork<Dim>& work_;
   const Model<Dim>& model_;
   std::size_t b_;
   const BlockLayers<Dim>& layers_;
@@ -323,35 +325,36 @@ class NodeFinder {
 }  // namespace
 
 template <int Dim, class Shape>
-void find_contacts(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  state.scratch[b].contact.clear();
-  if (state.nodes.layers[b].shared.empty()) return;
-  NodeFinder<Dim, Shape>(state, model, b).run();
+void find_contacts(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  work.scratch[b].contact.clear();
+  if (work.nodes.layers[b].shared.empty()) return;
+  NodeFinder<Dim, Shape>(state, work, model, b).run();
 }
 
 template <int Dim>
-void remember_contacts(State<Dim>& state) {
-  state.memory.entries.clear();
-  state.memory.sides.clear();
-  for (const auto& scratch : state.scratch) {
+void remember_contacts(State<Dim>& state, StepWork<Dim>& work) {
+  state.contacts.entries.clear();
+  state.contacts.sides.clear();
+  for (const auto& scratch : work.scratch) {
     for (const ContactNode<Dim>& node : scratch.contact.nodes) {
       for (std::uint32_t q = node.first_pair; q < node.end_pair; ++q) {
         const ContactPair<Dim>& pair = scratch.contact.pairs[q];
-        if (pair.state != ContactState::open) state.memory.entries.push_back({{node.number, pair.name}, pair.state});
+        if (pair.state != ContactState::open) state.contacts.entries.push_back({{node.number, pair.name}, pair.state});
       }
     }
-    state.memory.sides.insert(state.memory.sides.end(), scratch.contact.sides.begin(), scratch.contact.sides.end());
+    state.contacts.sides.insert(state.contacts.sides.end(), scratch.contact.sides.begin(), scratch.contact.sides.end());
   }
-  for (const ContactColumn<Dim>& column : state.face_contacts.columns) {
-    if (column.pair.state != ContactState::open) state.memory.entries.push_back({{column.name, column.pair.name}, column.pair.state});
+  for (const ContactColumn<Dim>& column : work.face_contacts.columns) {
+    if (column.pair.state != ContactState::open) state.contacts.entries.push_back({{column.name, column.pair.name}, column.pair.state});
   }
-  state.memory.sort();
+  state.contacts.sort();
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void find_contacts<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) \
+  template void find_contacts<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
-template void remember_contacts<2>(State<2>&);
-template void remember_contacts<3>(State<3>&);
+template void remember_contacts<2>(State<2>&, StepWork<2>&);
+template void remember_contacts<3>(State<3>&, StepWork<3>&);
 
 }  // namespace crampon

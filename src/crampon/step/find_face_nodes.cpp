@@ -17,8 +17,8 @@ namespace {
 template <int Dim, class Shape>
 class FaceFinder {
  public:
-  FaceFinder(State<Dim>& state, const Model<Dim>& model, std::size_t b)
-      : state_(state), model_(model), b_(b), layers_(state.nodes.layers[b]), out_(state.scratch[b].face_nodes) {}
+  FaceFinder(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b)
+      : state_(state), work_(work), model_(model), b_(b), layers_(work.nodes.layers[b]), out_(work.scratch[b].face_nodes) {}
 
   void run() {
     for (int node = 0; node < block_nodes<Dim>; ++node) {
@@ -28,7 +28,7 @@ class FaceFinder {
   }
 
  private:
-  Vec<Dim> position_of(int node) const { return model_.grid.node_position(state_.blocks.list[b_].node(node)); }
+  Vec<Dim> position_of(int node) const { return model_.grid.node_position(work_.blocks.list[b_].node(node)); }
 
   void find_groups_of(int node) {
     near_.clear();
@@ -41,7 +41,7 @@ class FaceFinder {
     if (near_.empty()) return;
     present_.clear();
     for (std::size_t l = 0; l < layers_.node.size(); ++l) {
-      if (state_.nodes.momentum[layers_.slot(l, node)][Dim] > 0 && !model_.is_rigid(layers_.node[l].field))
+      if (work_.nodes.momentum[layers_.slot(l, node)][Dim] > 0 && !model_.is_rigid(layers_.node[l].field))
         present_.push_back(static_cast<int>(l));
     }
     if (present_.empty()) return;
@@ -51,7 +51,7 @@ class FaceFinder {
 
   /// A group of a node against all rigid faces near it.
   void meet_faces(int node, const Vec<Dim>& x, int g) {
-    const std::int64_t number = model_.grid.node_number(state_.blocks.list[b_].node(node));
+    const std::int64_t number = model_.grid.node_number(work_.blocks.list[b_].node(node));
     const Mirrors mirrors = mirrors_at(model_, number);
     FaceGroup<Dim> group;
     group.node = static_cast<std::uint16_t>(node);
@@ -66,9 +66,9 @@ class FaceFinder {
       if (group_of_[i] != g) continue;
       const Layer& layer = layers_.node[static_cast<std::size_t>(present_[i])];
       const std::size_t slot = layers_.slot(present_[i], node);
-      const ContactSums<Dim>& sums = state_.nodes.contact[slot];
+      const ContactSums<Dim>& sums = work_.nodes.contact[slot];
       out_.slots.push_back(slot);
-      group.m += state_.nodes.momentum[slot][Dim];
+      group.m += work_.nodes.momentum[slot][Dim];
       mean += sums.present();
       part.gradient += sums.gradient();
       part.history += sums.history();
@@ -97,7 +97,7 @@ class FaceFinder {
         if (std::fabs(n[k]) > std::fabs(n[part.axis]) * (1 + 1e-9)) part.axis = static_cast<std::uint8_t>(k);
       }
       part.up = n[part.axis] > 0;
-      auto at = state_.blocks.list[b_].node(node);
+      auto at = work_.blocks.list[b_].node(node);
       part.row = at[part.axis];
       at[part.axis] = 0;
       part.column = model_.grid.node_number(at);
@@ -113,7 +113,7 @@ class FaceFinder {
 
   /// The group among those of a node with several fields.
   int find_contact_group(int node, std::size_t slot) const {
-    const ContactNodes<Dim>& contacts = state_.scratch[b_].contact;
+    const ContactNodes<Dim>& contacts = work_.scratch[b_].contact;
     const auto at = std::lower_bound(contacts.nodes.begin(), contacts.nodes.end(), node,
                                      [](const ContactNode<Dim>& c, int n) { return static_cast<int>(c.node) < n; });
     if (at == contacts.nodes.end() || static_cast<int>(at->node) != node) return -1;
@@ -129,8 +129,8 @@ class FaceFinder {
     cloud.clear();
     std::vector<bool> wanted(block_nodes<Dim>, false);
     for (const FaceGroup<Dim>& group : out_.groups) wanted[group.node] = true;
-    cloud.template collect<Shape>(state_, model_, b_, wanted, ContactCloud<Dim>::Of::surface);
-    const FaceSampler<Dim> sampler(state_, model_);
+    cloud.template collect<Shape>(state_, work_, model_, b_, wanted, ContactCloud<Dim>::Of::surface);
+    const FaceSampler<Dim> sampler(state_, work_, model_);
     for (FacePart<Dim>& part : out_.parts) {
       const FaceGroup<Dim>& group = out_.groups[part.group];
       points_.clear();
@@ -145,6 +145,7 @@ class FaceFinder {
   }
 
   State<Dim>& state_;
+  StepWork<Dim>& work_;
   const Model<Dim>& model_;
   std::size_t b_;
   const BlockLayers<Dim>& layers_;
@@ -157,13 +158,14 @@ class FaceFinder {
 }  // namespace
 
 template <int Dim, class Shape>
-void find_face_nodes(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  state.scratch[b].face_nodes.clear();
-  if (!state.nodes.layers[b].near_face || state.nodes.layers[b].shared.empty()) return;
-  FaceFinder<Dim, Shape>(state, model, b).run();
+void find_face_nodes(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  work.scratch[b].face_nodes.clear();
+  if (!work.nodes.layers[b].near_face || work.nodes.layers[b].shared.empty()) return;
+  FaceFinder<Dim, Shape>(state, work, model, b).run();
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void find_face_nodes<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) \
+  template void find_face_nodes<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -17,8 +17,8 @@ namespace {
 template <int Dim>
 class PieceSearch {
  public:
-  PieceSearch(const State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model) {
-    for (const Run& run : state.blocks.runs) {
+  PieceSearch(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model) : state_(state), work_(work), model_(model) {
+    for (const Run& run : state.order.runs) {
       const std::uint16_t field = model.materials[run.material].field;
       if (model.is_rigid(field)) continue;
       for (std::size_t p = std::size_t{run.first_pack} * lanes; p < std::size_t{run.end_pack} * lanes; ++p) {
@@ -94,7 +94,7 @@ class PieceSearch {
 
   bool sees_cracks(const IndexVector<Dim>& cell) const {
     if constexpr (Dim == 2) {
-      const FacetBins& bins = state_.crack_view.bins;
+      const FacetBins& bins = work_.crack_view.bins;
       return !bins.empty() && bins.any_in_box({cell[0] - 1, cell[1] - 1}, {cell[0] + 1, cell[1] + 1});
     }
     return false;
@@ -107,13 +107,13 @@ class PieceSearch {
       const auto is_whole = [&](const Entry& e) { return model_.is_whole(model_.materials[e.material].field); };
       const bool whole = is_whole(a) && is_whole(b);
       const Vec<2> x = state_.particles.position(a.slot), y = state_.particles.position(b.slot);
-      const auto facets = state_.crack_view.bins.facets_of_box({std::min(a.cell[0], b.cell[0]), std::min(a.cell[1], b.cell[1])},
-                                                               {std::max(a.cell[0], b.cell[0]), std::max(a.cell[1], b.cell[1])}, room_);
+      const auto facets = work_.crack_view.bins.facets_of_box({std::min(a.cell[0], b.cell[0]), std::min(a.cell[1], b.cell[1])},
+                                                              {std::max(a.cell[0], b.cell[0]), std::max(a.cell[1], b.cell[1])}, room_);
       for (std::size_t f = 0; f < facets.size() && !whole;) {
         std::size_t end = f;
         while (end < facets.size() && facets[end].crack == facets[f].crack) ++end;
         const bool bonded = std::holds_alternative<BondedContact>(model_.law_across(facets[f].crack));
-        if (!bonded && cross_path(state_.crack_view.paths[facets[f].crack], facets.subspan(f, end - f), x, y).crosses()) return;
+        if (!bonded && cross_path(work_.crack_view.paths[facets[f].crack], facets.subspan(f, end - f), x, y).crosses()) return;
         f = end;
       }
     }
@@ -121,6 +121,7 @@ class PieceSearch {
   }
 
   const State<Dim>& state_;
+  const StepWork<Dim>& work_;
   const Model<Dim>& model_;
   std::vector<Entry> list_;         ///< by group of bonded fields, cell, number of the particle
   std::vector<std::size_t> above_;  ///< per entry: one of its piece that comes before it; itself: the first
@@ -137,24 +138,24 @@ bool is_at_plane(const Model<Dim>& model, const Material<Dim>& material, const S
 }  // namespace
 
 template <int Dim>
-void start_rotations(State<Dim>& state, const Model<Dim>& model) {
-  Rotations<Dim>& rotations = state.rotations;
-  rotations = {};
+void start_rotations(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  Pieces<Dim>& pieces = state.pieces;
+  pieces = {};
   if (model.rotation == RotationTransfer::n03) return;
   if constexpr (Dim == 2) {
-    if (!state.cracks.empty()) view_cracks(state, model, 1);
+    if (!state.cracks.empty()) view_cracks(state, work, model, 1);
   }
-  const PieceSearch<Dim> search(state, model);
+  const PieceSearch<Dim> search(state, work, model);
   const auto& list = search.list();
-  rotations.piece_of_field.assign(model.fields.size(), no_piece);
+  pieces.of_field.assign(model.fields.size(), no_piece);
   std::vector<std::uint32_t> piece(list.size()), group_of_piece;
   std::vector<double> mass(model.fields.size(), 0.);  // of groups of bonded fields
   std::vector<Vec<Dim>> first(model.fields.size());
   bool several = false;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (const std::size_t leader = search.first_of(i); leader == i) {
-      piece[i] = static_cast<std::uint32_t>(rotations.of_piece.size());
-      rotations.of_piece.emplace_back().about = Dim == 3 ? std::array{true, true, true} : std::array{false, false, true};
+      piece[i] = static_cast<std::uint32_t>(pieces.list.size());
+      pieces.list.emplace_back().about = Dim == 3 ? std::array{true, true, true} : std::array{false, false, true};
       group_of_piece.push_back(list[i].group);
     } else {
       piece[i] = piece[leader];
@@ -163,23 +164,23 @@ void start_rotations(State<Dim>& state, const Model<Dim>& model) {
     const Vec<Dim> x = state.particles.position(list[i].slot);
     for (const SymmetryPlane& plane : model.symmetries) {
       if (!is_at_plane(model, material, plane, x)) continue;
-      for (int k = 0; k < 3; ++k) rotations.of_piece[piece[i]].about[static_cast<std::size_t>(k)] &= k == plane.axis;
+      for (int k = 0; k < 3; ++k) pieces.list[piece[i]].about[static_cast<std::size_t>(k)] &= k == plane.axis;
     }
     mass[list[i].group] += state.particles.mass(list[i].slot);
     first[list[i].group] += x * state.particles.mass(list[i].slot);
-    std::uint32_t& of_field = rotations.piece_of_field[material.field];
+    std::uint32_t& of_field = pieces.of_field[material.field];
     if (of_field == no_piece) of_field = piece[i];
     if (of_field != piece[i]) of_field = several_pieces, several = true;
   }
   // Pieces of one field share nodes' first moments, and so their origin.
-  for (std::size_t k = 0; k < rotations.of_piece.size(); ++k) {
-    if (const std::size_t g = group_of_piece[k]; mass[g] > 0) rotations.of_piece[k].origin = first[g] * (1 / mass[g]);
+  for (std::size_t k = 0; k < pieces.list.size(); ++k) {
+    if (const std::size_t g = group_of_piece[k]; mass[g] > 0) pieces.list[k].origin = first[g] * (1 / mass[g]);
   }
-  if (several) rotations.piece_of_particle.assign(state.particle_count, no_piece);
-  for (std::size_t i = 0; several && i < list.size(); ++i) rotations.piece_of_particle[state.particles.id[list[i].slot]] = piece[i];
+  if (several) pieces.of_particle.assign(state.order.particle_count, no_piece);
+  for (std::size_t i = 0; several && i < list.size(); ++i) pieces.of_particle[state.particles.id[list[i].slot]] = piece[i];
 }
 
-template void start_rotations<2>(State<2>&, const Model<2>&);
-template void start_rotations<3>(State<3>&, const Model<3>&);
+template void start_rotations<2>(State<2>&, StepWork<2>&, const Model<2>&);
+template void start_rotations<3>(State<3>&, StepWork<3>&, const Model<3>&);
 
 }  // namespace crampon

@@ -7,7 +7,7 @@
 
 #include "crampon/step/held_nodes.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -110,15 +110,15 @@ class PairFolder {
 
 /// The packs of a block with folded pairs, ascending.
 template <int Dim, class Shape>
-std::vector<std::uint32_t> folded_packs(const State<Dim>& state, std::size_t b) {
+std::vector<std::uint32_t> folded_packs(const State<Dim>& state, const StepWork<Dim>& work, std::size_t b) {
   constexpr std::size_t pairs = std::size_t{lanes} * Tile<Dim, Shape>::stencil;
-  const BlockLayers<Dim>& layers = state.nodes.layers[b];
+  const BlockLayers<Dim>& layers = work.nodes.layers[b];
   std::vector<std::uint32_t> packs;
   for (std::size_t k = 0; k < layers.special.size(); ++k) {
     if (layers.special[k] < 0) continue;
     const PairTarget* first = &layers.targets[static_cast<std::size_t>(layers.special[k]) * pairs];
     if (std::any_of(first, first + pairs, [](const PairTarget& t) { return t.mirrored != 0; }))
-      packs.push_back(state.blocks.runs[state.blocks.list[b].first_run].first_pack + static_cast<std::uint32_t>(k));
+      packs.push_back(state.order.runs[work.blocks.list[b].first_run].first_pack + static_cast<std::uint32_t>(k));
   }
   return packs;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "crampon/core/error.hpp"
+#include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/ledger.hpp"
 
@@ -35,10 +36,10 @@ std::string nearest_crack(const State<Dim>& state, const Vec<Dim>& x) {
 
 /// Calls f(slot, run) for the particles of a block.
 template <int Dim, class F>
-void for_particles(const State<Dim>& state, std::size_t b, F f) {
-  const Block<Dim>& block = state.blocks.list[b];
+void for_particles(const State<Dim>& state, const StepWork<Dim>& work, std::size_t b, F f) {
+  const Block<Dim>& block = work.blocks.list[b];
   for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
-    const Run& run = state.blocks.runs[r];
+    const Run& run = state.order.runs[r];
     for (std::size_t p = std::size_t{run.first_pack} * lanes; p < std::size_t{run.end_pack} * lanes; ++p) {
       if (!state.particles.is_padding(p)) f(p, run);
     }
@@ -48,8 +49,8 @@ void for_particles(const State<Dim>& state, std::size_t b, F f) {
 template <int Dim>
 [[noreturn]] void stop(const State<Dim>& state, std::size_t p, const std::string& what, const std::string& advice) {
   const Vec<Dim> x = state.particles.position(p);
-  throw RunError(fmt::format("step {} (t = {:.6g} s): particle {} at {} {}{}; {}", state.step, state.time, state.particles.id[p],
-                             text_of(x), what, nearest_crack(state, x), advice));
+  throw RunError(fmt::format("step {} (t = {:.6g} s): particle {} at {} {}{}; {}", state.clock.step, state.clock.time,
+                             state.particles.id[p], text_of(x), what, nearest_crack(state, x), advice));
 }
 
 template <int Dim>
@@ -61,8 +62,8 @@ bool is_finite(const Vec<Dim>& a) {
 }
 
 template <int Dim>
-void report_bad_number(const State<Dim>& state, std::size_t b) {
-  for_particles(state, b, [&](std::size_t p, const Run&) {
+void report_bad_number(const State<Dim>& state, const StepWork<Dim>& work, std::size_t b) {
+  for_particles(state, work, b, [&](std::size_t p, const Run&) {
     if (is_finite(state.particles.position(p)) && is_finite(state.particles.velocity(p))) return;
     stop(state, p, "has a position or velocity that is not a number",
          "lower the Courant factor, or look for a load or a velocity that is too large");
@@ -70,8 +71,8 @@ void report_bad_number(const State<Dim>& state, std::size_t b) {
 }
 
 template <int Dim>
-void report_inverted(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  for_particles(state, b, [&](std::size_t p, const Run& run) {
+void report_inverted(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  for_particles(state, work, b, [&](std::size_t p, const Run& run) {
     const std::size_t k = p / lanes;
     const PackReport report =
         model.materials[run.material].law->report(model.stress_state, Dim, &state.particles.stress[k * stress_size<Dim>],
@@ -84,10 +85,10 @@ void report_inverted(const State<Dim>& state, const Model<Dim>& model, std::size
 }
 
 template <int Dim>
-void report_fast(const State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
+void report_fast(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, double dt) {
   std::size_t fastest = 0;
   double speed = -1;
-  for_particles(state, b, [&](std::size_t p, const Run&) {
+  for_particles(state, work, b, [&](std::size_t p, const Run&) {
     const double v = norm(state.particles.velocity(p));
     if (v > speed) speed = v, fastest = p;
   });
@@ -99,18 +100,20 @@ void report_fast(const State<Dim>& state, const Model<Dim>& model, std::size_t b
 }  // namespace
 
 template <int Dim>
-void check_prescribed(const State<Dim>& state, const Model<Dim>& model, const std::vector<Vec<Dim>>& load_values,
-                      const Vec<Dim>& body_force, double damping, double particle_damping) {
+void check_prescribed(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model) {
+  const std::vector<Vec<Dim>>& load_values = work.prescribed.loads;
+  const Vec<Dim>& body_force = work.prescribed.body_force;
+  const double damping = work.prescribed.damping;
   const auto need = [&](bool is_number, const std::string& what, const std::string& name) {
     if (is_number) return;
     throw RunError(fmt::format("step {} (t = {:.6g} s): {}{} is not a number; correct the table or expression that gives it",
-                               state.step + 1, state.time, what, name.empty() ? "" : " \"" + name + "\""));
+                               state.clock.step + 1, state.clock.time, what, name.empty() ? "" : " \"" + name + "\""));
   };
   for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
     const RigidPose<Dim>& end = state.rigid[b].end;
     need(is_finite(end.centre) && is_finite(end.velocity) && is_finite(end.spin), "the velocity or spin of", model.rigid_bodies[b].name);
   }
-  for (const BlockScratch<Dim>& scratch : state.scratch) {
+  for (const BlockScratch<Dim>& scratch : work.scratch) {
     for (const FixedComponent& f : scratch.fixed) {
       need(!f.active || (std::isfinite(f.v_old) && std::isfinite(f.v_new)), "the velocity of", model.conditions[f.condition].name);
     }
@@ -123,48 +126,69 @@ void check_prescribed(const State<Dim>& state, const Model<Dim>& model, const st
     throw RunError(
         fmt::format("step {} (t = {:.6g} s): {} is {:.4g} 1/s, and below zero it drives the motion; correct the table or expression that "
                     "gives it",
-                    state.step + 1, state.time, what, value));
+                    state.clock.step + 1, state.clock.time, what, value));
   };
   check_damping(damping, "the damping");
-  check_damping(particle_damping, "the damping of particles");
+  check_damping(work.prescribed.particle_damping, "the damping of particles");
 }
 
+namespace {
+
+/// Nothing refers to a particle that is about to be removed: no load, no face, no crack.
+template <int Dim>
+void forget_particle(StepWork<Dim>& work, std::size_t b, std::uint32_t id, std::size_t slot) {
+  if (id < work.places.slot_of_id.size()) work.places.slot_of_id[id] = padding_id;
+  BlockScratch<Dim>& scratch = work.scratch[b];
+  std::erase_if(scratch.loaded, [&](const LoadedParticle& p) { return p.slot == slot; });
+  for (const FaceParticle& p : scratch.faces) {
+    if (p.slot == slot) work.faces.present[p.number] = false;
+  }
+  std::erase_if(scratch.faces, [&](const FaceParticle& p) { return p.slot == slot; });
+}
+
+}  // namespace
+
 template <int Dim, class Shape>
-void check_health(State<Dim>& state, const Model<Dim>& model, double dt) {
-  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
-    const BlockHealth& health = state.scratch[b].health;
+void check_health(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  bool any_left = false;
+  const double dt = work.now.dt;
+  for (std::size_t b = 0; b < work.blocks.size(); ++b) {
+    const BlockHealth& health = work.scratch[b].health;
     if (!health.trouble()) continue;
-    if (health.bad_number) report_bad_number(state, b);
-    if (health.inverted) report_inverted(state, model, b);
-    if (health.moved_too_far) report_fast(state, model, b, dt);
+    if (health.bad_number) report_bad_number(state, work, b);
+    if (health.inverted) report_inverted(state, work, model, b);
+    if (health.moved_too_far) report_fast(state, work, model, b, dt);
     if (health.left_grid) {
-      for_particles(state, b, [&](std::size_t p, const Run& run) {
+      for_particles(state, work, b, [&](std::size_t p, const Run& run) {
         if (model.grid.contains(state.particles.position(p))) return;
         if (model.leaving_particle == LeavingParticle::error) {
           stop(state, p, "has left the grid", "enlarge the grid, or set method.leaving_particle = \"remove\"");
         }
         book_departure(state, model, run, p);
+        forget_particle(work, b, state.particles.id[p], p);
+        any_left = true;
         state.particles.id[p] = padding_id;
         state.particles.mass_volume[p / lanes * 2][p % lanes] = 0.;
         state.particles.mass_volume[p / lanes * 2 + 1][p % lanes] = 0.;
-        ++state.removed;
-        state.must_reorder = true;
+        ++state.ledger.removed;
+        state.order.must_reorder = true;
       });
     }
-    state.scratch[b].health = {};
+    work.scratch[b].health = {};
   }
-  if (state.removed > 0 && static_cast<std::size_t>(state.removed) == state.particle_count + static_cast<std::size_t>(state.removed)) {
+  if (any_left) drop_lost_carriers(state, work);
+  if (state.ledger.removed > 0 &&
+      static_cast<std::size_t>(state.ledger.removed) == state.order.particle_count + static_cast<std::size_t>(state.ledger.removed)) {
     throw RunError(fmt::format("step {} (t = {:.6g} s): every particle has left the grid; enlarge the grid or end the run earlier",
-                               state.step, state.time));
+                               state.clock.step, state.clock.time));
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM) \
-  template void check_prescribed<DIM>(const State<DIM>&, const Model<DIM>&, const std::vector<Vec<DIM>>&, const Vec<DIM>&, double, double);
+#define CRAMPON_INSTANTIATE(DIM) template void check_prescribed<DIM>(const State<DIM>&, const StepWork<DIM>&, const Model<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void check_health<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, double);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void check_health<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

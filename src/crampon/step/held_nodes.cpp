@@ -19,17 +19,17 @@ bool holds(const Model<Dim>& model, const FixedComponent& c) {
 }  // namespace
 
 template <int Dim, class Shape>
-HeldNodes<Dim, Shape>::HeldNodes(const State<Dim>& state, const Model<Dim>& model, std::size_t block) {
+HeldNodes<Dim, Shape>::HeldNodes(const StepWork<Dim>& work, const Model<Dim>& model, std::size_t block) {
   if (Shape::width < 3) return;
-  const Block<Dim>& own = state.blocks.list[block];
+  const Block<Dim>& own = work.blocks.list[block];
   first_ = own.first_node();
   for (std::size_t k = 0; k < Dim; ++k) first_[k] -= T::offset;
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t there = own.neighbours[o];
     if (there == no_block) continue;
-    for (const FixedComponent& c : state.scratch[there].fixed) {
+    for (const FixedComponent& c : work.scratch[there].fixed) {
       if (!holds(model, c)) continue;
-      const int node = tile_node(state.blocks.list[there].node(c.node));
+      const int node = tile_node(work.blocks.list[there].node(c.node));
       if (node < 0) continue;
       components_.push_back({node, c.axis, c.condition, c.v_old, c.v_new});
     }

@@ -6,7 +6,7 @@
 
 #include "crampon/shape/stencil.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -22,7 +22,7 @@ class HeldNodes {
     double start = 0, end = 0;
   };
 
-  HeldNodes(const State<Dim>& state, const Model<Dim>& model, std::size_t block);
+  HeldNodes(const StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
   bool any() const { return !components_.empty(); }
   /// May a particle in this cell, counted from the tile's first node, see a held node? False for cells outside the tile.

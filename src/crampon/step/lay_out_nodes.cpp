@@ -13,17 +13,17 @@ namespace {
 
 /// Layers at the own nodes of a block: all that reach it from tiles around. A block that none reaches has no nodes in this step.
 template <int Dim, class Shape>
-void find_node_layers(State<Dim>& state, std::size_t b) {
-  BlockLayers<Dim>& own = state.nodes.layers[b];
+void find_node_layers(StepWork<Dim>& work, std::size_t b) {
+  BlockLayers<Dim>& own = work.nodes.layers[b];
   own.node.clear();
   own.node_cracks.clear();
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
-    const std::uint32_t c = state.blocks.list[b].neighbours[o];
+    const std::uint32_t c = work.blocks.list[b].neighbours[o];
     if (c == no_block) continue;
-    const BlockLayers<Dim>& there = state.nodes.layers[c];
-    if (!state.blocks.list[c].has_particles()) continue;
+    const BlockLayers<Dim>& there = work.nodes.layers[c];
+    if (!work.blocks.list[c].has_particles()) continue;
     for (std::size_t l = 0; l < there.tile.size(); ++l) {
-      if (Overlap<Dim, Shape>(neighbour_step<Dim>(o), touched_box(state, c, static_cast<int>(l))).empty) continue;
+      if (Overlap<Dim, Shape>(neighbour_step<Dim>(o), touched_box(work, c, static_cast<int>(l))).empty) continue;
       if (layer_of<Dim>(own.node, there.tile[l]) < 0) own.node.push_back(there.tile[l]);
     }
     own.node_cracks.insert(own.node_cracks.end(), there.tile_cracks.begin(), there.tile_cracks.end());
@@ -35,9 +35,9 @@ void find_node_layers(State<Dim>& state, std::size_t b) {
 
 /// Are own nodes of a block within reach of a rigid face?
 template <int Dim>
-bool block_is_near_face(const State<Dim>& state, const Model<Dim>& model, std::size_t b) {
+bool block_is_near_face(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
   Vec<Dim> centre, half;
-  const auto first = state.blocks.list[b].first_node();
+  const auto first = work.blocks.list[b].first_node();
   for (int k = 0; k < Dim; ++k) {
     half[k] = 0.5 * (block_side - 1) * model.grid.cell[k];
     centre[k] = model.grid.node_coordinate(k, first[k]) + half[k];
@@ -47,12 +47,12 @@ bool block_is_near_face(const State<Dim>& state, const Model<Dim>& model, std::s
 
 /// Does a tile reach own nodes, of some block around it, that hold several layers or are near a rigid face?
 template <int Dim, class Shape>
-bool reaches_shared_nodes(const State<Dim>& state, std::size_t b) {
-  const Block<Dim>& block = state.blocks.list[b];
+bool reaches_shared_nodes(const StepWork<Dim>& work, std::size_t b) {
+  const Block<Dim>& block = work.blocks.list[b];
   if (!block.has_particles()) return false;
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
     const std::uint32_t c = block.neighbours[o];
-    if (c == no_block || (state.nodes.layers[c].node.size() < 2 && !state.nodes.layers[c].near_face)) continue;
+    if (c == no_block || (work.nodes.layers[c].node.size() < 2 && !work.nodes.layers[c].near_face)) continue;
     IndexVector<Dim> step = neighbour_step<Dim>(o);
     for (int k = 0; k < Dim; ++k) step[k] = -step[k];
     if (!Overlap<Dim, Shape>(step, block.touched).empty) return true;
@@ -63,17 +63,18 @@ bool reaches_shared_nodes(const State<Dim>& state, std::size_t b) {
 }  // namespace
 
 template <int Dim, class Shape>
-void lay_out_nodes(State<Dim>& state, const Model<Dim>& model, const std::vector<std::vector<CrossingSums>>& crossing) {
-  Nodes<Dim>& nodes = state.nodes;
-  const std::size_t blocks = state.blocks.size();
+void lay_out_nodes(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model,
+                   const std::vector<std::vector<CrossingSums>>& crossing) {
+  Nodes<Dim>& nodes = work.nodes;
+  const std::size_t blocks = work.blocks.size();
   const bool cracked = !state.cracks.empty();
   const bool several = cracked || model.fields.size() > 1;
   parallel_for(blocks, model.threads, [&](std::size_t b) {
-    find_node_layers<Dim, Shape>(state, b);
-    if (several) nodes.layers[b].near_face = block_is_near_face(state, model, b);
+    find_node_layers<Dim, Shape>(work, b);
+    if (several) nodes.layers[b].near_face = block_is_near_face(state, work, model, b);
   });
   if (several) {
-    parallel_for(blocks, model.threads, [&](std::size_t b) { nodes.layers[b].sums_contact = reaches_shared_nodes<Dim, Shape>(state, b); });
+    parallel_for(blocks, model.threads, [&](std::size_t b) { nodes.layers[b].sums_contact = reaches_shared_nodes<Dim, Shape>(work, b); });
   }
   nodes.tile_slots = nodes.node_slots = nodes.crossing_tile_slots = nodes.crossing_node_slots = 0;
   for (BlockLayers<Dim>& l : nodes.layers) {
@@ -89,11 +90,11 @@ void lay_out_nodes(State<Dim>& state, const Model<Dim>& model, const std::vector
   using T = Tile<Dim, Shape>;
   nodes.tile_momentum.resize_discarding(nodes.tile_slots * T::nodes);
   nodes.tile_force.resize_discarding(nodes.tile_slots * T::nodes);
-  if (state.rotations.any()) {
+  if (state.pieces.any()) {
     nodes.tile_moment.resize_discarding(nodes.tile_slots * T::nodes);
     nodes.arm.resize_discarding(nodes.node_slots * block_nodes<Dim>);
   }
-  if (state.rotations.several()) {
+  if (state.pieces.several()) {
     nodes.tile_piece.resize_discarding(nodes.tile_slots * T::nodes);
     nodes.piece.resize_discarding(nodes.node_slots * block_nodes<Dim>);
   }
@@ -112,7 +113,7 @@ void lay_out_nodes(State<Dim>& state, const Model<Dim>& model, const std::vector
 }
 
 #define CRAMPON_INSTANTIATE(DIM, SHAPE) \
-  template void lay_out_nodes<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, const std::vector<std::vector<CrossingSums>>&);
+  template void lay_out_nodes<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, const std::vector<std::vector<CrossingSums>>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

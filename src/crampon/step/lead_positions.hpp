@@ -2,7 +2,7 @@
 /// Positions lead velocities by half a step, so that forces find them in the middle of the coming step (docs/theory/step.md, time of positions).
 
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -15,6 +15,10 @@ double position_lead(const Model<Dim>& model, double dt) {
 /// Before the first step of a run, and before each that is longer or shorter than the one before: takes particles, crack points and rigid bodies
 /// (after start_rigid_motion) to where they are in the middle of the step. Orders particles anew where that takes them too far.
 template <int Dim, class Shape>
-void lead_positions(State<Dim>& state, const Model<Dim>& model, double dt);
+void lead_positions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// Makes ready to keep what particles move with (Particles::moved_with), where someone will look and positions lead.
+template <int Dim>
+void watch_motion(State<Dim>& state, StepWork<Dim>& work);
 
 }  // namespace crampon

@@ -8,34 +8,23 @@
 
 namespace crampon {
 
-template <int Dim>
-void evaluate_loads(double time, const Model<Dim>& model, std::vector<Vec<Dim>>& loads, Vec<Dim>& body_force, double& damping) {
-  loads.assign(model.loads.size(), {});
-  for (std::size_t l = 0; l < model.loads.size(); ++l) {
-    for (int k = 0; k < Dim; ++k) loads[l][k] = model.loads[l].value[static_cast<std::size_t>(k)](time, {});
-  }
-  body_force = {};
-  for (std::size_t k = 0; k < model.body_force.size(); ++k) body_force[k] = model.body_force[k](time, {});
-  damping = model.damped ? model.damping(time, {}) : 0.;
-}
-
 template <int Dim, class Shape>
-void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
+void record_initial_volume(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   using T = Tile<Dim, Shape>;
   const bool by_volume = (!state.cracks.empty() && model.contact.detection == ContactDetection::volume) ||
                          (model.fields.size() > 1 && model.contact.material_detection == ContactDetection::volume);
-  if (state.step != 0 || !by_volume || model.contact.reference_volume != ReferenceVolume::initial) return;
-  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
-    if (!state.blocks.list[b].has_particles()) continue;
-    const auto first = state.blocks.list[b].first_node();
+  if (state.clock.step != 0 || !by_volume || model.contact.reference_volume != ReferenceVolume::initial) return;
+  for (std::size_t b = 0; b < work.blocks.size(); ++b) {
+    if (!work.blocks.list[b].has_particles()) continue;
+    const auto first = work.blocks.list[b].first_node();
     for_packs<Dim, Shape>(
-        state, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+        state, work, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
           for (int l = 0; l < lanes; ++l) {
             const double V_p = state.particles.volume(std::size_t{pack} * lanes + l) / model.materials[run.material].thickness;
             for (int n = 0; n < T::stencil; ++n) {
               auto node = unflatten<Dim>(targets ? targets[l * T::stencil + n].node : stencil.of.lowest(l) + T::steps[n], T::side);
               for (int k = 0; k < Dim; ++k) node[k] += first[k] - T::offset;
-              state.initial_volume[model.grid.node_number(node)] += V_p * stencil.weight(n, l);
+              state.contacts.initial_volume[model.grid.node_number(node)] += V_p * stencil.weight(n, l);
             }
           }
         });
@@ -43,35 +32,41 @@ void record_initial_volume(State<Dim>& state, const Model<Dim>& model) {
 }
 
 template <int Dim>
-void close_ledger(State<Dim>& state, const Model<Dim>& model) {
-  state.reactions.assign(model.conditions.size(), {});
-  const double in_interfaces = state.energy.interfaces;
-  state.energy.interfaces = 0;
-  state.rigid_reactions.assign(model.rigid_bodies.size(), {});
+void close_step(State<Dim>& state, StepWork<Dim>& work) {
+  state.clock.time += work.now.dt;
+  ++state.clock.step;
+}
+
+template <int Dim>
+void close_ledger(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  state.ledger.reactions.assign(model.conditions.size(), {});
+  const double in_interfaces = state.ledger.energy.interfaces;
+  state.ledger.energy.interfaces = 0;
+  state.ledger.rigid_reactions.assign(model.rigid_bodies.size(), {});
   std::int64_t unsolved = 0, crowded = 0;
-  for (auto& scratch : state.scratch) {
+  for (auto& scratch : work.scratch) {
     BlockLedger<Dim>& ledger = scratch.ledger;
-    state.energy.load_work += ledger.load_work;
-    state.energy.body_work += ledger.body_work;
-    state.energy.boundary_work += ledger.boundary_work;
-    state.energy.damping += ledger.damping;
-    state.energy.transfer_loss += ledger.transfer_loss;
-    state.energy.contact_loss += ledger.contact_loss;
-    state.energy.friction_loss += ledger.friction_loss;
-    state.energy.interfaces += ledger.interface_energy;
-    for (const auto& r : ledger.reactions) state.reactions[r.condition] += r.force;
+    state.ledger.energy.load_work += ledger.load_work;
+    state.ledger.energy.body_work += ledger.body_work;
+    state.ledger.energy.boundary_work += ledger.boundary_work;
+    state.ledger.energy.damping += ledger.damping;
+    state.ledger.energy.transfer_loss += ledger.transfer_loss;
+    state.ledger.energy.contact_loss += ledger.contact_loss;
+    state.ledger.energy.friction_loss += ledger.friction_loss;
+    state.ledger.energy.interfaces += ledger.interface_energy;
+    for (const auto& r : ledger.reactions) state.ledger.reactions[r.condition] += r.force;
     for (const auto& r : ledger.rigid) {
-      state.rigid_reactions[r.body].force += r.on_material.force;
-      state.rigid_reactions[r.body].torque += r.on_material.torque;
+      state.ledger.rigid_reactions[r.body].force += r.on_material.force;
+      state.ledger.rigid_reactions[r.body].torque += r.on_material.torque;
     }
     unsolved += ledger.unsolved_nodes;
     crowded += ledger.crowded_nodes;
-    if (scratch.health.left_margin) state.must_reorder = true;
+    if (scratch.health.left_margin) state.order.must_reorder = true;
     ledger.clear();
   }
-  state.energy.contact_loss -= state.energy.interfaces - in_interfaces;  // taken from the particles, but not lost
-  state.most_unsolved_nodes = std::max(state.most_unsolved_nodes, unsolved);
-  state.most_crowded_nodes = std::max(state.most_crowded_nodes, crowded);
+  state.ledger.energy.contact_loss -= state.ledger.energy.interfaces - in_interfaces;  // taken from the particles, but not lost
+  state.ledger.most_unsolved_nodes = std::max(state.ledger.most_unsolved_nodes, unsolved);
+  state.ledger.most_crowded_nodes = std::max(state.ledger.most_crowded_nodes, crowded);
 }
 
 namespace {
@@ -100,9 +95,9 @@ void add_pack(const State<Dim>& state, const Model<Dim>& model, const Run& run, 
 
 template <int Dim>
 ParticleSums<Dim> sum_particles(const State<Dim>& state, const Model<Dim>& model) {
-  std::vector<ParticleSums<Dim>> parts(state.blocks.runs.size());
+  std::vector<ParticleSums<Dim>> parts(state.order.runs.size());
   parallel_for(parts.size(), model.threads, [&](std::size_t r) {
-    const Run& run = state.blocks.runs[r];
+    const Run& run = state.order.runs[r];
     if (model.is_rigid(model.materials[run.material].field)) return;
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
       add_pack(
@@ -118,18 +113,18 @@ template <int Dim>
 void book_departure(State<Dim>& state, const Model<Dim>& model, const Run& run, std::size_t particle) {
   if (model.is_rigid(model.materials[run.material].field)) return;
   add_pack(
-      state, model, run, particle / lanes, [&](std::size_t p) { return p == particle; }, state.left);
+      state, model, run, particle / lanes, [&](std::size_t p) { return p == particle; }, state.ledger.left);
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                            \
-  template void evaluate_loads<DIM>(double, const Model<DIM>&, std::vector<Vec<DIM>>&, Vec<DIM>&, double&); \
-  template void close_ledger<DIM>(State<DIM>&, const Model<DIM>&);                                          \
-  template ParticleSums<DIM> sum_particles<DIM>(const State<DIM>&, const Model<DIM>&);                      \
+#define CRAMPON_INSTANTIATE(DIM)                                                       \
+  template void close_step<DIM>(State<DIM>&, StepWork<DIM>&);                          \
+  template void close_ledger<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);     \
+  template ParticleSums<DIM> sum_particles<DIM>(const State<DIM>&, const Model<DIM>&); \
   template void book_departure<DIM>(State<DIM>&, const Model<DIM>&, const Run&, std::size_t);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void record_initial_volume<DIM, SHAPE>(State<DIM>&, const Model<DIM>&);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void record_initial_volume<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -26,15 +26,16 @@ class ColumnLinker {
  public:
   using PartAt = typename FaceContacts<Dim>::PartAt;
 
-  ColumnLinker(State<Dim>& state, const Model<Dim>& model) : state_(state), model_(model), out_(state.face_contacts) {}
+  ColumnLinker(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model)
+      : state_(state), work_(work), model_(model), out_(work.face_contacts) {}
 
   void run() {
     out_.parts.clear();
     out_.columns.clear();
     out_.first_column.clear();
     std::vector<PartAt> all;
-    for (std::uint32_t b = 0; b < state_.scratch.size(); ++b) {
-      for (std::uint32_t p = 0; p < state_.scratch[b].face_nodes.parts.size(); ++p) all.push_back({b, p});
+    for (std::uint32_t b = 0; b < work_.scratch.size(); ++b) {
+      for (std::uint32_t p = 0; p < work_.scratch[b].face_nodes.parts.size(); ++p) all.push_back({b, p});
     }
     const auto name = [&](const PartAt& at) {
       const FacePart<Dim>& p = part(at);
@@ -57,8 +58,8 @@ class ColumnLinker {
   }
 
  private:
-  FacePart<Dim>& part(const PartAt& at) { return state_.scratch[at.block].face_nodes.parts[at.part]; }
-  FaceGroup<Dim>& group(const PartAt& at) { return state_.scratch[at.block].face_nodes.groups[part(at).group]; }
+  FacePart<Dim>& part(const PartAt& at) { return work_.scratch[at.block].face_nodes.parts[at.part]; }
+  FaceGroup<Dim>& group(const PartAt& at) { return work_.scratch[at.block].face_nodes.groups[part(at).group]; }
 
   void add_column(const PartAt* begin, const PartAt* end) {
     const FacePart<Dim>& first = part(*begin);
@@ -89,8 +90,8 @@ class ColumnLinker {
     pair.name.field_b = rigid;
     pair.name.others = first.cracks;
     pair.name.face = face_;
-    pair.previous = state_.memory.find({column.name, pair.name});
-    if (state_.step == 0 && std::holds_alternative<AdhesiveContact>(*pair.law) && pair.gap <= 0.1 * model_.grid.smallest_cell())
+    pair.previous = state_.contacts.find({column.name, pair.name});
+    if (state_.clock.step == 0 && std::holds_alternative<AdhesiveContact>(*pair.law) && pair.gap <= 0.1 * model_.grid.smallest_cell())
       pair.previous = ContactState::stick;  // glued from the start
     out_.columns.push_back(column);
   }
@@ -100,7 +101,7 @@ class ColumnLinker {
   bool look(const PartAt* begin, const PartAt* end, ContactPair<Dim>& pair) {
     const auto for_samples = [&](auto f) {
       for (const PartAt* at = begin; at != end; ++at) {
-        const FaceNodes<Dim>& nodes = state_.scratch[at->block].face_nodes;
+        const FaceNodes<Dim>& nodes = work_.scratch[at->block].face_nodes;
         const FacePart<Dim>& p = nodes.parts[at->part];
         for (std::uint32_t s = p.first_sample; s < p.end_sample; ++s) f(nodes.samples[s]);
       }
@@ -237,6 +238,7 @@ class ColumnLinker {
   }
 
   State<Dim>& state_;
+  StepWork<Dim>& work_;
   const Model<Dim>& model_;
   FaceContacts<Dim>& out_;
   std::uint8_t face_ = 0;     ///< of those of one body along a column
@@ -246,11 +248,11 @@ class ColumnLinker {
 }  // namespace
 
 template <int Dim>
-void link_face_columns(State<Dim>& state, const Model<Dim>& model) {
-  ColumnLinker<Dim>(state, model).run();
+void link_face_columns(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  ColumnLinker<Dim>(state, work, model).run();
 }
 
-template void link_face_columns<2>(State<2>&, const Model<2>&);
-template void link_face_columns<3>(State<3>&, const Model<3>&);
+template void link_face_columns<2>(State<2>&, StepWork<2>&, const Model<2>&);
+template void link_face_columns<3>(State<3>&, StepWork<3>&, const Model<3>&);
 
 }  // namespace crampon

@@ -31,10 +31,10 @@ const RigidPose<Dim>& pose_in(const State<Dim>& state, std::size_t body, Contact
 
 /// f(part, group) for the parts of a column.
 template <int Dim, class F>
-void for_parts(State<Dim>& state, const ContactColumn<Dim>& column, F f) {
+void for_parts(StepWork<Dim>& work, const ContactColumn<Dim>& column, F f) {
   for (std::uint32_t i = column.first; i < column.end; ++i) {
-    const auto& at = state.face_contacts.parts[i];
-    FaceNodes<Dim>& nodes = state.scratch[at.block].face_nodes;
+    const auto& at = work.face_contacts.parts[i];
+    FaceNodes<Dim>& nodes = work.scratch[at.block].face_nodes;
     FacePart<Dim>& part = nodes.parts[at.part];
     f(part, nodes.groups[part.group]);
   }
@@ -42,10 +42,11 @@ void for_parts(State<Dim>& state, const ContactColumn<Dim>& column, F f) {
 
 /// Velocity of the rigid body against the material at the face, by the nodes' parts of it, m/s. of: FaceGroup::before or ::v.
 template <int Dim>
-Vec<Dim> relative_velocity(State<Dim>& state, const ContactColumn<Dim>& column, ContactTask task, Vec<Dim> FaceGroup<Dim>::*of) {
+Vec<Dim> relative_velocity(State<Dim>& state, StepWork<Dim>& work, const ContactColumn<Dim>& column, ContactTask task,
+                           Vec<Dim> FaceGroup<Dim>::*of) {
   const RigidPose<Dim>& pose = pose_in(state, column.body, task);
   Vec<Dim> w;
-  for_parts(state, column, [&](const FacePart<Dim>& part, const FaceGroup<Dim>& group) {
+  for_parts(work, column, [&](const FacePart<Dim>& part, const FaceGroup<Dim>& group) {
     const Vec<Dim> of_rigid = task == ContactTask::term ? Vec<Dim>{} : pose.velocity_at(group.x);  // terms are changes of velocity
     w += (of_rigid - group.*of) * (part.w / column.w);
   });
@@ -66,12 +67,13 @@ struct PairsAtFace {
 template <int Dim>
 class SetOfColumns {
  public:
-  SetOfColumns(State<Dim>& state, const Model<Dim>& model, const ContactRules& rules, std::size_t set)
+  SetOfColumns(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, const ContactRules& rules, std::size_t set)
       : state_(state),
+        work_(work),
         model_(model),
         rules_(rules),
         at_faces_(rules),
-        faces_(state.face_contacts),
+        faces_(work.face_contacts),
         begin_(faces_.columns.data() + faces_.first_column[set]),
         end_(faces_.columns.data() + faces_.first_column[set + 1]) {
     at_faces_.literal = false;
@@ -108,14 +110,14 @@ class SetOfColumns {
     return solved && most <= 1e-8 * largest_;  // slow, but near enough
   }
 
-  ContactGroup<Dim>* groups_of(const PairsAtFace<Dim>& at) { return state_.scratch[at.block].contact.groups.data() + at.node->first_group; }
+  ContactGroup<Dim>* groups_of(const PairsAtFace<Dim>& at) { return work_.scratch[at.block].contact.groups.data() + at.node->first_group; }
 
   /// The nodes of the set that have pairs.
   void find_pairs() {
     std::vector<std::pair<std::uint32_t, std::uint16_t>> nodes;
     for (ContactColumn<Dim>* c = begin_; c != end_; ++c) {
       for (std::uint32_t i = c->first; i < c->end; ++i) {
-        FaceNodes<Dim>& faces = state_.scratch[faces_.parts[i].block].face_nodes;
+        FaceNodes<Dim>& faces = work_.scratch[faces_.parts[i].block].face_nodes;
         const FaceGroup<Dim>& group = faces.groups[faces.parts[faces_.parts[i].part].group];
         if (group.contact_group >= 0) nodes.emplace_back(faces_.parts[i].block, group.node);
       }
@@ -123,20 +125,20 @@ class SetOfColumns {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     for (const auto& [block, number] : nodes) {
-      const ContactNodes<Dim>& contacts = state_.scratch[block].contact;
+      const ContactNodes<Dim>& contacts = work_.scratch[block].contact;
       PairsAtFace<Dim> at;
       at.block = block;
       at.node = &*std::lower_bound(contacts.nodes.begin(), contacts.nodes.end(), number,
                                    [](const ContactNode<Dim>& c, std::uint16_t n) { return c.node < n; });
       if (at.node->first_pair == at.node->end_pair) continue;
       at.rules = rules_;
-      at.rules.fixed_axes = fixes_before_contact(model_, rules_.task) ? fixed_axes(state_, block, number) : 0u;
+      at.rules.fixed_axes = fixes_before_contact(model_, rules_.task) ? fixed_axes(work_, block, number) : 0u;
       at.p.resize(at.node->end_group - at.node->first_group);
       for (std::uint32_t f = at.node->first_field; f < at.node->end_field; ++f) {
-        const Pack& p = state_.nodes.momentum[state_.nodes.layers[block].slot(contacts.fields[f].layer, number)];
+        const Pack& p = work_.nodes.momentum[work_.nodes.layers[block].slot(contacts.fields[f].layer, number)];
         for (int k = 0; k < Dim; ++k) at.p[static_cast<std::size_t>(contacts.fields[f].group)][k] += p[k];
       }
-      for (FaceGroup<Dim>& group : state_.scratch[block].face_nodes.groups) {
+      for (FaceGroup<Dim>& group : work_.scratch[block].face_nodes.groups) {
         if (group.node == number && group.contact_group >= 0)
           at.faces.emplace_back(group.contact_group - static_cast<int>(at.node->first_group), &group);
       }
@@ -146,7 +148,7 @@ class SetOfColumns {
 
   /// Pairs of a node against what the faces give. Returns by how much momenta change, kg m/s.
   double change(PairsAtFace<Dim>& at, bool& solved) {
-    ContactNodes<Dim>& contacts = state_.scratch[at.block].contact;
+    ContactNodes<Dim>& contacts = work_.scratch[at.block].contact;
     ContactGroup<Dim>* groups = groups_of(at);
     for (std::size_t g = 0; g < at.p.size(); ++g) groups[g].p = at.p[g];
     for (const auto& [g, face] : at.faces) groups[g].p += face->dp;
@@ -164,13 +166,13 @@ class SetOfColumns {
   }
 
   Vec<Dim> relative_velocity_now(const ContactColumn<Dim>& column) const {
-    return relative_velocity(state_, column, rules_.task, &FaceGroup<Dim>::v);
+    return relative_velocity(state_, work_, column, rules_.task, &FaceGroup<Dim>::v);
   }
 
   /// The mass that an impulse at the face moves, kg; none where nothing can move.
   double mass_before(const ContactColumn<Dim>& column) const {
     double inverse = 0;
-    for_parts(state_, column, [&](const FacePart<Dim>& part, const FaceGroup<Dim>& group) {
+    for_parts(work_, column, [&](const FacePart<Dim>& part, const FaceGroup<Dim>& group) {
       const double share = part.w / column.w;
       inverse += share * share * dot(column.pair.n, without_axes(column.pair.n, group.fixed_axes)) / group.m;
     });
@@ -178,7 +180,7 @@ class SetOfColumns {
   }
 
   void add(ContactColumn<Dim>& column, const Vec<Dim>& J) {
-    for_parts(state_, column, [&](FacePart<Dim>& part, FaceGroup<Dim>& group) {
+    for_parts(work_, column, [&](FacePart<Dim>& part, FaceGroup<Dim>& group) {
       const Vec<Dim> dp = without_axes(J * (-part.w / column.w), group.fixed_axes);
       part.dp += dp;
       group.dp += dp;
@@ -189,7 +191,7 @@ class SetOfColumns {
   void start(ContactColumn<Dim>& column) {
     column.pair.J = {};
     const double m = mass_before(column);
-    for_parts(state_, column, [&](FacePart<Dim>& part, const FaceGroup<Dim>& group) {
+    for_parts(work_, column, [&](FacePart<Dim>& part, const FaceGroup<Dim>& group) {
       part.dp = {};
       largest_ = std::fmax(largest_, m * norm(group.v));
     });
@@ -211,6 +213,7 @@ class SetOfColumns {
   }
 
   State<Dim>& state_;
+  StepWork<Dim>& work_;
   const Model<Dim>& model_;
   const ContactRules& rules_;
   ContactRules at_faces_;  ///< the papers know no such faces, and the rule of each task for itself makes energy
@@ -222,11 +225,11 @@ class SetOfColumns {
 
 /// After the columns of a set are solved: what their pairs keep, and the work of friction, J.
 template <int Dim>
-double close_pair(State<Dim>& state, ContactColumn<Dim>& column, ContactTask task, double dt, bool re_extrapolates) {
+double close_pair(State<Dim>& state, StepWork<Dim>& work, ContactColumn<Dim>& column, ContactTask task, double dt, bool re_extrapolates) {
   ContactPair<Dim>& pair = column.pair;
   switch (task) {
     case ContactTask::two:
-      pair.w_start = relative_velocity(state, column, task, &FaceGroup<Dim>::before);
+      pair.w_start = relative_velocity(state, work, column, task, &FaceGroup<Dim>::before);
       pair.w_settled = column.w_now;
       return 0;
     case ContactTask::four:
@@ -235,7 +238,7 @@ double close_pair(State<Dim>& state, ContactColumn<Dim>& column, ContactTask tas
       // Without Task 6 the velocity of the particles at the end is not known: that at the start stands for both.
       return re_extrapolates ? 0. : friction_work(pair, pair.w_start);
     case ContactTask::six:
-      return friction_work(pair, relative_velocity(state, column, task, &FaceGroup<Dim>::before));
+      return friction_work(pair, relative_velocity(state, work, column, task, &FaceGroup<Dim>::before));
     case ContactTask::term:
       break;
   }
@@ -245,72 +248,74 @@ double close_pair(State<Dim>& state, ContactColumn<Dim>& column, ContactTask tas
 /// What particles are to add to their memory of contact waits on the nodes in the place of the contact sums, which have done their work:
 /// {gain, 1} where there is contact, else zeros.
 template <int Dim>
-void forget_gains(State<Dim>& state, std::size_t b) {
-  const std::size_t count = state.nodes.layers[b].node.size() * block_nodes<Dim>;
-  for (std::size_t i = 0; i < count; ++i) state.nodes.contact[state.nodes.layers[b].slot(0, 0) + i].r[0] = splat(0.);
+void forget_gains(StepWork<Dim>& work, std::size_t b) {
+  const std::size_t count = work.nodes.layers[b].node.size() * block_nodes<Dim>;
+  for (std::size_t i = 0; i < count; ++i) work.nodes.contact[work.nodes.layers[b].slot(0, 0) + i].r[0] = splat(0.);
 }
 template <int Dim>
-void put_gain(State<Dim>& state, const ContactColumn<Dim>& column) {
+void put_gain(StepWork<Dim>& work, const ContactColumn<Dim>& column) {
   if (!needs_history(*column.pair.law) || column.pair.state == ContactState::open) return;
   for (std::uint32_t i = column.first; i < column.end; ++i) {
-    const auto& at = state.face_contacts.parts[i];
-    const FaceNodes<Dim>& nodes = state.scratch[at.block].face_nodes;
+    const auto& at = work.face_contacts.parts[i];
+    const FaceNodes<Dim>& nodes = work.scratch[at.block].face_nodes;
     const FaceGroup<Dim>& group = nodes.groups[nodes.parts[at.part].group];
     for (std::uint32_t k = group.first_slot; k < group.end_slot; ++k)
-      state.nodes.contact[nodes.slots[k]].r[0] = Pack{column.pair.history_gain, 1., 0., 0.};
+      work.nodes.contact[nodes.slots[k]].r[0] = Pack{column.pair.history_gain, 1., 0., 0.};
   }
 }
 
 }  // namespace
 
 template <int Dim>
-void start_meeting_faces(State<Dim>& state, const Model<Dim>& model, std::size_t b, ContactTask task) {
-  if (task == ContactTask::four && state.particles.contact.size() > 0) forget_gains(state, b);
-  FaceNodes<Dim>& faces = state.scratch[b].face_nodes;
+void start_meeting_faces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, ContactTask task) {
+  if (task == ContactTask::four && state.particles.contact.size() > 0) forget_gains(work, b);
+  FaceNodes<Dim>& faces = work.scratch[b].face_nodes;
   const bool imposed_before = fixes_before_contact(model, task);
   for (FaceGroup<Dim>& group : faces.groups) {
-    group.before = velocity_of(state.nodes, faces, group);
-    group.fixed_axes = imposed_before ? fixed_axes(state, b, group.node) : 0u;
+    group.before = velocity_of(work.nodes, faces, group);
+    group.fixed_axes = imposed_before ? fixed_axes(work, b, group.node) : 0u;
   }
 }
 
 template <int Dim>
-void meet_faces(State<Dim>& state, const Model<Dim>& model, ContactTask task, double dt) {
-  FaceContacts<Dim>& contacts = state.face_contacts;
+void meet_faces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, ContactTask task) {
+  const double dt = work.now.dt;
+  FaceContacts<Dim>& contacts = work.face_contacts;
   const ContactRules rules = contact_rules(model, task, dt);
-  parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) {
-    FaceNodes<Dim>& faces = state.scratch[b].face_nodes;
+  parallel_for(work.blocks.size(), model.threads, [&](std::size_t b) {
+    FaceNodes<Dim>& faces = work.scratch[b].face_nodes;
     for (FaceGroup<Dim>& group : faces.groups) {
-      group.v = velocity_of(state.nodes, faces, group);
+      group.v = velocity_of(work.nodes, faces, group);
       group.dp = {};
     }
   });
   if (contacts.columns.empty()) return;
   std::vector<std::uint8_t> unsolved(contacts.first_column.size() - 1, 0);
   parallel_for(unsolved.size(), model.threads, [&](std::size_t set) {
-    SetOfColumns<Dim> columns(state, model, rules, set);
+    SetOfColumns<Dim> columns(state, work, model, rules, set);
     unsolved[set] = columns.run() ? 0 : 1;
   });
-  const bool re_extrapolates = model.transfer_in(state.step).re_extrapolates;
+  const bool re_extrapolates = model.transfer_in(state.clock.step).re_extrapolates;
   const bool remembers = task == ContactTask::four && state.particles.contact.size() > 0;
   for (std::size_t set = 0; set < unsolved.size(); ++set) {
     for (std::uint32_t c = contacts.first_column[set]; c < contacts.first_column[set + 1]; ++c) {
       ContactColumn<Dim>& column = contacts.columns[c];
-      BlockLedger<Dim>& ledger = state.scratch[contacts.parts[column.first].block].ledger;
+      BlockLedger<Dim>& ledger = work.scratch[contacts.parts[column.first].block].ledger;
       if (c == contacts.first_column[set]) ledger.unsolved_nodes += unsolved[set];
-      const double rubbed = close_pair(state, column, task, dt, re_extrapolates);
+      const double rubbed = close_pair(state, work, column, task, dt, re_extrapolates);
       ledger.friction_loss += rubbed;
       ledger.contact_loss -= rubbed;
-      if (remembers) put_gain(state, column);
+      if (remembers) put_gain(work, column);
     }
   }
 }
 
 template <int Dim>
-void take_face_impulses(State<Dim>& state, const Model<Dim>& model, std::size_t b, ContactTask task, double dt) {
-  FaceNodes<Dim>& faces = state.scratch[b].face_nodes;
-  BlockLedger<Dim>& ledger = state.scratch[b].ledger;
-  const bool re_extrapolates = model.transfer_in(state.step).re_extrapolates;
+void take_face_impulses(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, ContactTask task) {
+  const double dt = work.now.dt;
+  FaceNodes<Dim>& faces = work.scratch[b].face_nodes;
+  BlockLedger<Dim>& ledger = work.scratch[b].ledger;
+  const bool re_extrapolates = model.transfer_in(state.clock.step).re_extrapolates;
   for (FacePart<Dim>& part : faces.parts) {
     const FaceGroup<Dim>& group = faces.groups[part.group];
     if (task == ContactTask::term) continue;
@@ -325,15 +330,15 @@ void take_face_impulses(State<Dim>& state, const Model<Dim>& model, std::size_t 
     if (task != ContactTask::term) ledger.contact_loss += group.account.book(task, group.before, group.dp, group.v, re_extrapolates);
     for (std::uint32_t s = group.first_slot; s < group.end_slot; ++s) {
       const std::size_t i = faces.slots[s];
-      change_node(state.nodes, i, group.dp * (state.nodes.momentum[i][Dim] / group.m), task, dt);
+      change_node(work.nodes, i, group.dp * (work.nodes.momentum[i][Dim] / group.m), task, dt);
     }
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                    \
-  template void start_meeting_faces<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, ContactTask); \
-  template void meet_faces<DIM>(State<DIM>&, const Model<DIM>&, ContactTask, double);               \
-  template void take_face_impulses<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, ContactTask, double);
+#define CRAMPON_INSTANTIATE(DIM)                                                                                    \
+  template void start_meeting_faces<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t, ContactTask); \
+  template void meet_faces<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, ContactTask);                       \
+  template void take_face_impulses<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t, ContactTask);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE

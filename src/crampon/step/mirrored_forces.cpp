@@ -21,9 +21,10 @@ int stress_index(int d, int k) {
 
 /// f(pack, stencil, lane, index in the stencil, target) for the folded pairs of a block; not those of rigid bodies, whose mass is a volume.
 template <int Dim, class Shape, class F>
-void for_folded(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<std::uint32_t>& packs, F f) {
+void for_folded(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
+                const std::vector<std::uint32_t>& packs, F f) {
   using T = Tile<Dim, Shape>;
-  for_packs<Dim, Shape>(state, model, b, packs,
+  for_packs<Dim, Shape>(state, work, model, b, packs,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
                           if (model.is_rigid(model.materials[run.material].field)) return;
                           for (int l = 0; l < lanes; ++l) {
@@ -41,14 +42,16 @@ bool is_flipped(unsigned flip, int k) { return flip >> k & 1u; }
 }  // namespace
 
 template <int Dim, class Shape>
-void project_mirrored_forces(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const Vec<Dim>& body_force, double damping,
+void project_mirrored_forces(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
                              NodalVector<Dim>* tiles) {
+  const Vec<Dim>& body_force = work.prescribed.body_force;
+  const double damping = work.prescribed.damping;
   using T = Tile<Dim, Shape>;
-  const PairOffsets<Dim>& offsets = state.nodes.layers[b].offsets;
+  const PairOffsets<Dim>& offsets = work.nodes.layers[b].offsets;
   if (!model.any_body_force() && !offsets.any()) return;
-  const std::vector<std::uint32_t> packs = folded_packs<Dim, Shape>(state, b);
+  const std::vector<std::uint32_t> packs = folded_packs<Dim, Shape>(state, work, b);
   if (packs.empty()) return;
-  for_folded<Dim, Shape>(state, model, b, packs,
+  for_folded<Dim, Shape>(state, work, model, b, packs,
                          [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, int l, int n, const PairTarget& t) {
                            const double m = state.particles.mass(std::size_t{pack} * lanes + l) * stencil.weight(n, l);
                            NodalVector<Dim>& f = tiles[t.layer * T::nodes + t.node];
@@ -65,19 +68,22 @@ void project_mirrored_forces(const State<Dim>& state, const Model<Dim>& model, s
 // particle's momentum m_p S_ip (b - a) is changed where f was given, and the same image has taken f - m_p S_ip b from the node. What is
 // missing, -2 (m_p S_ip (a - b) + f), is what the plane or face does.
 template <int Dim, class Shape>
-void account_mirrored_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const std::vector<Vec<Dim>>& load_values,
-                             const Vec<Dim>& body_force, double damping) {
-  if (Shape::width < 3 || !state.blocks.list[b].has_particles()) return;
+void account_mirrored_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  const double dt = work.now.dt;
+  const std::vector<Vec<Dim>>& load_values = work.prescribed.loads;
+  const Vec<Dim>& body_force = work.prescribed.body_force;
+  const double damping = work.prescribed.damping;
+  if (Shape::width < 3 || !work.blocks.list[b].has_particles()) return;
   using T = Tile<Dim, Shape>;
-  const std::vector<std::uint32_t> packs = folded_packs<Dim, Shape>(state, b);
+  const std::vector<std::uint32_t> packs = folded_packs<Dim, Shape>(state, work, b);
   if (packs.empty()) return;
   const Particles<Dim>& particles = state.particles;
-  const PairOffsets<Dim>& offsets = state.nodes.layers[b].offsets;
-  BlockLedger<Dim>& ledger = state.scratch[b].ledger;
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
-  const HeldNodes<Dim, Shape> held(state, model, b);
+  const PairOffsets<Dim>& offsets = work.nodes.layers[b].offsets;
+  BlockLedger<Dim>& ledger = work.scratch[b].ledger;
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(work, b, work.nodes.motion);
+  const HeldNodes<Dim, Shape> held(work, model, b);
   const PairFolder<Dim, Shape> folder(model, held);
-  const auto first_node = state.blocks.list[b].first_node();
+  const auto first_node = work.blocks.list[b].first_node();
   const auto fold = [&](const Stencil<Dim, Shape>& stencil, int l, int n, std::size_t p) {
     auto node = unflatten<Dim>(stencil.of.lowest(l) + T::steps[n], T::side);
     for (int k = 0; k < Dim; ++k) node[k] += first_node[k] - T::offset;
@@ -88,7 +94,7 @@ void account_mirrored_forces(State<Dim>& state, const Model<Dim>& model, std::si
     ledger.boundary_work += force * 0.25 * (pair.offset_start[k] + pair.offset_end[k]) * dt;  // the face has half the offset
   };
   for_folded<Dim, Shape>(
-      state, model, b, packs, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, int l, int n, const PairTarget& t) {
+      state, work, model, b, packs, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, int l, int n, const PairTarget& t) {
         const std::size_t p = std::size_t{pack} * lanes + l;
         const double m = particles.mass(p) * stencil.weight(n, l), V_p = particles.mass_volume[2 * std::size_t{pack} + 1][l];
         const Pack* stress = &particles.stress[std::size_t{pack} * stress_size<Dim>];
@@ -119,7 +125,7 @@ void account_mirrored_forces(State<Dim>& state, const Model<Dim>& model, std::si
     if (is_flipped(t.flip, k)) react(fold(stencil, l, n, slot), k, -2 * f);
   };
   for_slots<Dim, Shape>(
-      state, model, b, state.scratch[b].loaded,
+      state, work, model, b, work.scratch[b].loaded,
       [&](const LoadedParticle& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, const Run&) {
         const double share = model.loads[loaded.load].share[loaded.entry];
         for (int n = 0; n < T::stencil; ++n) {
@@ -128,17 +134,16 @@ void account_mirrored_forces(State<Dim>& state, const Model<Dim>& model, std::si
         }
       });
   for_face_forces<Dim, Shape>(
-      state, model, b,
+      state, work, model, b,
       [&](std::uint32_t slot, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, int n, const NodalVector<Dim>& f) {
         for (int k = 0; k < Dim; ++k) book_load(slot, stencil, l, targets, n, k, f[k]);
       });
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                                \
-  template void project_mirrored_forces<DIM, SHAPE>(const State<DIM>&, const Model<DIM>&, std::size_t, const Vec<DIM>&, double,        \
-                                                    NodalVector<DIM>*);                                                                \
-  template void account_mirrored_forces<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, const std::vector<Vec<DIM>>&, \
-                                                    const Vec<DIM>&, double);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                      \
+  template void project_mirrored_forces<DIM, SHAPE>(const State<DIM>&, const StepWork<DIM>&, const Model<DIM>&, std::size_t, \
+                                                    NodalVector<DIM>*);                                                      \
+  template void account_mirrored_forces<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

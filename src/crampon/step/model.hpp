@@ -188,4 +188,14 @@ struct Model {
   bool is_whole(std::uint16_t field) const { return fields[field].whole; }
 };
 
+/// Is stress updated with the velocities of Task 2, or with those of Task 6? USAVG does both, half of the step each (N03 Eq. 35).
+template <int Dim>
+bool updates_stress_first(const Model<Dim>& model) {
+  return model.stress_update == StressUpdate::usf || model.stress_update == StressUpdate::usavg;
+}
+template <int Dim>
+bool updates_stress_last(const Model<Dim>& model) {
+  return model.stress_update != StressUpdate::usf;
+}
+
 }  // namespace crampon

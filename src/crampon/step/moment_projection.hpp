@@ -15,15 +15,15 @@ class MomentProjection {
   using T = Tile<Dim, Shape>;
 
  public:
-  MomentProjection(State<Dim>& state, const Model<Dim>& model, std::size_t b)
+  MomentProjection(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b)
       : particles_(state.particles),
         model_(model),
-        rotations_(state.rotations),
-        first_(state.blocks.list[b].first_node()),
-        sums_(state.scratch[b].rotation) {
+        pieces_(state.pieces),
+        first_(work.blocks.list[b].first_node()),
+        sums_(work.scratch[b].rotation) {
     sums_.clear();
-    if (rotations_.any()) tiles_ = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_moment);
-    if (rotations_.several()) marks_ = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_piece);
+    if (pieces_.any()) tiles_ = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_moment);
+    if (pieces_.several()) marks_ = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_piece);
   }
 
   /// \param m  masses of the pack, kg
@@ -73,11 +73,11 @@ class MomentProjection {
     finish();
     run_ = &run;
     const std::uint16_t field = model_.materials[run.material].field;
-    piece_ = rotations_.in_field(field);
+    piece_ = pieces_.in_field(field);
     if (piece_ == several_pieces) {
-      origin_ = as_nodal(rotations_.of_piece[rotations_.piece_of_particle[particles_.id[std::size_t{run.first_pack} * lanes]]].origin);
+      origin_ = as_nodal(pieces_.list[pieces_.of_particle[particles_.id[std::size_t{run.first_pack} * lanes]]].origin);
     } else if (piece_ != no_piece) {
-      origin_ = as_nodal(rotations_.of_piece[piece_].origin);
+      origin_ = as_nodal(pieces_.list[piece_].origin);
     }
   }
   void clear() {
@@ -119,7 +119,7 @@ class MomentProjection {
     for (int l = 0; l < lanes; ++l) {
       const std::size_t p = std::size_t{pack} * lanes + static_cast<std::size_t>(l);
       if (particles_.is_padding(p)) continue;
-      piece_ = rotations_.piece_of_particle[particles_.id[p]];
+      piece_ = pieces_.of_particle[particles_.id[p]];
       Pack one = splat(0.);
       one[l] = m[l];
       sum_up(pack, one);
@@ -145,7 +145,7 @@ class MomentProjection {
 
   const Particles<Dim>& particles_;
   const Model<Dim>& model_;
-  const Rotations<Dim>& rotations_;
+  const Pieces<Dim>& pieces_;
   IndexVector<Dim> first_;
   std::vector<RotationSums>& sums_;
   NodalVector<Dim>* tiles_ = nullptr;  ///< null: no rotation is carried

@@ -12,15 +12,15 @@ namespace crampon {
 namespace {
 
 /// Centre-of-mass velocity of all fields at x, m/s; none when a node about has no mass: of the others alone it would be that of another place.
-std::optional<Vec<2>> plane_velocity(const State<2>& state, const Model<2>& model, const Vec<2>& x) {
+std::optional<Vec<2>> plane_velocity(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x) {
   Vec<2> sum{};
   double weight = 0;
-  for (const NodeShare& node : nodes_around(state, model, x)) {
-    const BlockLayers<2>& layers = state.nodes.layers[node.block];
+  for (const NodeShare& node : nodes_around(work, model, x)) {
+    const BlockLayers<2>& layers = work.nodes.layers[node.block];
     Pack p = splat(0.);
     for (std::size_t l = 0; l < layers.node.size(); ++l) {
       if (model.is_whole(layers.node[l].field)) continue;
-      p += state.nodes.momentum[layers.slot(l, node.local)];
+      p += work.nodes.momentum[layers.slot(l, node.local)];
     }
     if (!(p[2] > 0)) continue;
     for (int k = 0; k < 2; ++k) sum[k] += node.S * p[k] / p[2];
@@ -60,19 +60,19 @@ struct CrackMotion {
 };
 
 /// How far surface points are from where their carriers are.
-std::vector<std::optional<Vec<2>>> surface_motion(const State<2>& state, const std::vector<Vec<2>>& surface,
+std::vector<std::optional<Vec<2>>> surface_motion(const State<2>& state, const StepWork<2>& work, const std::vector<Vec<2>>& surface,
                                                   const std::vector<Vec<2>>& original, const Carriers& carriers, PositionTime time) {
   std::vector<std::optional<Vec<2>>> moved(surface.size());
   for (std::size_t v = 0; v < carriers.size(); ++v) {
-    if (!carriers[v].empty()) moved[v] = original[v] + carried_displacement(state, carriers[v], time) - surface[v];
+    if (!carriers[v].empty()) moved[v] = original[v] + carried_displacement(state, work, carriers[v], time) - surface[v];
   }
   return moved;
 }
 
 /// Of the surfaces with their carriers, and of the plane with both of them.
-CrackMotion carried_motion(const State<2>& state, const Crack<2>& crack, PositionTime time) {
-  CrackMotion m{surface_motion(state, crack.upper, crack.original, crack.upper_carriers, time),
-                surface_motion(state, crack.lower, crack.original, crack.lower_carriers, time),
+CrackMotion carried_motion(const State<2>& state, const StepWork<2>& work, const Crack<2>& crack, PositionTime time) {
+  CrackMotion m{surface_motion(state, work, crack.upper, crack.original, crack.upper_carriers, time),
+                surface_motion(state, work, crack.lower, crack.original, crack.lower_carriers, time),
                 {}};
   for (std::size_t v = 0; v < crack.plane.size(); ++v) {
     if (m.upper[v] && m.lower[v]) {
@@ -98,11 +98,11 @@ void close_ends(Crack<2>& crack) {
   for (auto* x : {&crack.plane, &crack.upper, &crack.lower}) x->back() = x->front();
 }
 
-void move_crack(const State<2>& state, const Model<2>& model, double dt, Crack<2>& crack) {
+void move_crack(const State<2>& state, const StepWork<2>& work, const Model<2>& model, double dt, Crack<2>& crack) {
   const std::size_t n = crack.plane.size();
-  CrackMotion motion = carried_motion(state, crack, PositionTime::leading);
+  CrackMotion motion = carried_motion(state, work, crack, PositionTime::leading);
   parallel_for(n, model.threads, [&](std::size_t v) {
-    if (const auto velocity = plane_velocity(state, model, crack.plane[v])) motion.plane[v] = *velocity * dt;
+    if (const auto velocity = plane_velocity(work, model, crack.plane[v])) motion.plane[v] = *velocity * dt;
   });
   move_points(std::move(motion), crack);
   if (!crack.fixed) {
@@ -121,33 +121,34 @@ CrackOpening opening_at(const Crack<2>& crack, std::size_t v) {
 }
 
 template <>
-void move_cracks<2>(State<2>& state, const Model<2>& model, double dt) {
-  for (Crack<2>& crack : state.cracks.list) move_crack(state, model, dt, crack);
+void move_cracks<2>(State<2>& state, StepWork<2>& work, const Model<2>& model) {
+  const double dt = work.now.dt;
+  for (Crack<2>& crack : state.cracks.list) move_crack(state, work, model, dt, crack);
 }
 
 template <>
-void carry_cracks<2>(State<2>& state) {
+void carry_cracks<2>(State<2>& state, StepWork<2>& work) {
   for (Crack<2>& crack : state.cracks.list) {
-    move_points(carried_motion(state, crack, PositionTime::leading), crack);
+    move_points(carried_motion(state, work, crack, PositionTime::leading), crack);
     close_ends(crack);
   }
 }
 
 template <>
-Crack<2> present_crack<2>(const State<2>& state, Crack<2> crack) {
+Crack<2> present_crack<2>(const State<2>& state, const StepWork<2>& work, Crack<2> crack) {
   if (state.particles.lead == 0) return crack;
-  move_points(carried_motion(state, crack, PositionTime::present), crack);
+  move_points(carried_motion(state, work, crack, PositionTime::present), crack);
   close_ends(crack);
   return crack;
 }
 
 // The input admits cracks in 2D only.
 template <>
-void move_cracks<3>(State<3>&, const Model<3>&, double) {}
+void move_cracks<3>(State<3>&, StepWork<3>&, const Model<3>&) {}
 template <>
-void carry_cracks<3>(State<3>&) {}
+void carry_cracks<3>(State<3>&, StepWork<3>&) {}
 template <>
-Crack<3> present_crack<3>(const State<3>&, Crack<3> crack) {
+Crack<3> present_crack<3>(const State<3>&, const StepWork<3>&, Crack<3> crack) {
   return crack;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -9,17 +9,17 @@ namespace crampon {
 /// mass, with the mean of their surface points. The plane stays between its surfaces. Vertices without any of these go with the nearest
 /// vertex of their crack that has one.
 template <int Dim>
-void move_cracks(State<Dim>& state, const Model<Dim>& model, double dt);
+void move_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 /// After the positions of particles have been changed otherwise than by a step: surface points go with their carriers, and vertices of the plane
 /// with both of them.
 template <int Dim>
-void carry_cracks(State<Dim>& state);
+void carry_cracks(State<Dim>& state, StepWork<Dim>& work);
 
 /// The crack with its points at the present time, which those that the step works with lead (docs/theory/step.md, time of positions): what all
 /// ask for who look at the state from outside.
 template <int Dim>
-Crack<Dim> present_crack(const State<Dim>& state, Crack<Dim> crack);
+Crack<Dim> present_crack(const State<Dim>& state, const StepWork<Dim>& work, Crack<Dim> crack);
 
 /// Opening and sliding of a vertex, m: the vector from the lower to the upper surface point along the upward normal and the tangent
 /// of the crack plane there.

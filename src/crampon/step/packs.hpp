@@ -3,7 +3,7 @@
 
 #include "crampon/shape/separable.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -30,16 +30,17 @@ template <int Dim, class Shape>
 template <int Dim, class Shape>
 class BlockStencils {
  public:
-  BlockStencils(const State<Dim>& state, const Model<Dim>& model, std::size_t b)
+  BlockStencils(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b)
       : state_(state),
+        work_(work),
         model_(model),
-        block_(state.blocks.list[b]),
-        layers_(state.nodes.layers[b]),
+        block_(work.blocks.list[b]),
+        layers_(work.nodes.layers[b]),
         first_node_(block_.first_node()),
-        first_pack_(state.blocks.runs[block_.first_run].first_pack) {}
+        first_pack_(state.order.runs[block_.first_run].first_pack) {}
 
   const Run& enter_run(std::uint32_t r) {
-    const Run& run = state_.blocks.runs[r];
+    const Run& run = state_.order.runs[r];
     half_size_ = &model_.materials[run.material].half_size;
     layer_ = layers_.run_layer.empty() ? 0 : layers_.run_layer[r - block_.first_run];
     return run;
@@ -56,6 +57,7 @@ class BlockStencils {
 
  private:
   const State<Dim>& state_;
+  const StepWork<Dim>& work_;
   const Model<Dim>& model_;
   const Block<Dim>& block_;
   const BlockLayers<Dim>& layers_;
@@ -68,9 +70,10 @@ class BlockStencils {
 /// f(run, first pack, end pack, factors) for a few packs of one run at a time. Factors of several packs come first: their chains of dependent
 /// operations overlap.
 template <int Batch, int Dim, class Shape, class F>
-[[gnu::always_inline]] inline void for_batches(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
-  const Block<Dim>& block = state.blocks.list[b];
-  BlockStencils<Dim, Shape> stencils(state, model, b);
+[[gnu::always_inline]] inline void for_batches(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
+                                               F&& f) {
+  const Block<Dim>& block = work.blocks.list[b];
+  BlockStencils<Dim, Shape> stencils(state, work, model, b);
   StencilFactors<Dim, Shape> factors[Batch];
   for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
     const Run& run = stencils.enter_run(r);
@@ -85,21 +88,22 @@ template <int Batch, int Dim, class Shape, class F>
 /// f(pack, stencil, targets, run): targets is null for packs whose pairs all go to their own node in the stencil's layer, else
 /// [lane][stencil node] says where each pair goes.
 template <int Dim, class Shape, class F>
-void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, F&& f) {
+void for_packs(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, F&& f) {
   for_batches<Dim == 2 ? 8 : 1, Dim, Shape>(
-      state, model, b, [&](const auto& stencils, const Run& run, std::uint32_t first, std::uint32_t end, const auto* factors) {
+      state, work, model, b, [&](const auto& stencils, const Run& run, std::uint32_t first, std::uint32_t end, const auto* factors) {
         for (std::uint32_t k = first; k < end; ++k) f(k, Stencil<Dim, Shape>(factors[k - first]), stencils.targets(k), run);
       });
 }
 
 /// The same for some packs of the block, ascending.
 template <int Dim, class Shape, class F>
-void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<std::uint32_t>& packs, F&& f) {
-  std::uint32_t r = state.blocks.list[b].first_run;
-  BlockStencils<Dim, Shape> stencils(state, model, b);
+void for_packs(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
+               const std::vector<std::uint32_t>& packs, F&& f) {
+  std::uint32_t r = work.blocks.list[b].first_run;
+  BlockStencils<Dim, Shape> stencils(state, work, model, b);
   StencilFactors<Dim, Shape> factors;
   for (const std::uint32_t pack : packs) {
-    while (pack >= state.blocks.runs[r].end_pack) ++r;
+    while (pack >= state.order.runs[r].end_pack) ++r;
     const Run& run = stencils.enter_run(r);
     stencils.compute(pack, factors);
     f(pack, Stencil<Dim, Shape>(factors), stencils.targets(pack), run);
@@ -108,14 +112,15 @@ void for_packs(const State<Dim>& state, const Model<Dim>& model, std::size_t b, 
 
 /// f(item, stencil, lane, targets, run) for items of a block that name a particle by its slot, ascending.
 template <int Dim, class Shape, class Item, class F>
-void for_slots(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<Item>& items, F&& f) {
+void for_slots(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, const std::vector<Item>& items,
+               F&& f) {
   if (items.empty()) return;
-  std::uint32_t r = state.blocks.list[b].first_run;
-  BlockStencils<Dim, Shape> stencils(state, model, b);
+  std::uint32_t r = work.blocks.list[b].first_run;
+  BlockStencils<Dim, Shape> stencils(state, work, model, b);
   StencilFactors<Dim, Shape> factors;
   for (std::size_t i = 0; i < items.size();) {
     const std::uint32_t pack = items[i].slot / lanes;
-    while (pack >= state.blocks.runs[r].end_pack) ++r;
+    while (pack >= state.order.runs[r].end_pack) ++r;
     const Run& run = stencils.enter_run(r);
     stencils.compute(pack, factors);
     const Stencil<Dim, Shape> stencil(factors);

@@ -10,11 +10,11 @@ namespace {
 
 /// f(tile node, layer * nodes + tile node) over all that the particles of a block touch.
 template <int Dim, class Shape, class F>
-void for_touched(const State<Dim>& state, std::size_t b, F f) {
+void for_touched(const StepWork<Dim>& work, std::size_t b, F f) {
   using T = Tile<Dim, Shape>;
-  const auto layers = static_cast<int>(state.nodes.layers[b].tile.size());
+  const auto layers = static_cast<int>(work.nodes.layers[b].tile.size());
   for (int l = 0; l < layers; ++l) {
-    const TileBox<Dim>& box = touched_box(state, b, l);
+    const TileBox<Dim>& box = touched_box(work, b, l);
     if (box.empty()) continue;
     for (int k = Dim == 3 ? box.low[Dim - 1] : 0; k < (Dim == 3 ? box.high[Dim - 1] : 1); ++k) {
       for (int j = box.low[1]; j < box.high[1]; ++j) {
@@ -27,14 +27,14 @@ void for_touched(const State<Dim>& state, std::size_t b, F f) {
 
 /// f_p S_ip of forces on particles.
 template <int Dim, class Shape>
-void project_forces(const State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<Vec<Dim>>& load_values,
-                    NodalVector<Dim>* tiles) {
+void project_particle_loads(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
+                            NodalVector<Dim>* tiles) {
   using T = Tile<Dim, Shape>;
   for_slots<Dim, Shape>(
-      state, model, b, state.scratch[b].loaded,
+      state, work, model, b, work.scratch[b].loaded,
       [&](const LoadedParticle& loaded, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, const Run&) {
         NodalVector<Dim> f_p = splat_as<NodalVector<Dim>>(0.);
-        for (int k = 0; k < Dim; ++k) f_p[k] = model.loads[loaded.load].share[loaded.entry] * load_values[loaded.load][k];
+        for (int k = 0; k < Dim; ++k) f_p[k] = model.loads[loaded.load].share[loaded.entry] * work.prescribed.loads[loaded.load][k];
         for (int n = 0; n < T::stencil; ++n) {
           const PairTarget* pair = targets ? &targets[l * T::stencil + n] : nullptr;
           NodalVector<Dim>& q = tiles[pair ? pair->layer * T::nodes + pair->node : stencil.of.base[l] + T::steps[n]];
@@ -51,47 +51,48 @@ bool bears_loads(const BlockScratch<Dim>& scratch) {
 }  // namespace
 
 template <int Dim, class Shape>
-void project_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, const std::vector<Vec<Dim>>& load_values,
-                   NodalVector<Dim>* tiles) {
-  if (!bears_loads(state.scratch[b])) return;
-  AlignedArray<NodalVector<Dim>>& loads = state.scratch[b].loads;
-  loads.resize_discarding(state.nodes.layers[b].tile.size() * Tile<Dim, Shape>::nodes);
-  for_touched<Dim, Shape>(state, b, [&](std::size_t i) { loads[i] = splat_as<NodalVector<Dim>>(0.); });
-  project_forces<Dim, Shape>(state, model, b, load_values, loads.data());
-  project_face_loads<Dim, Shape>(state, model, b, loads.data());
-  for_touched<Dim, Shape>(state, b, [&](std::size_t i) { tiles[i] += loads[i]; });
+void project_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, NodalVector<Dim>* tiles) {
+  if (!bears_loads(work.scratch[b])) return;
+  AlignedArray<NodalVector<Dim>>& loads = work.scratch[b].loads;
+  loads.resize_discarding(work.nodes.layers[b].tile.size() * Tile<Dim, Shape>::nodes);
+  for_touched<Dim, Shape>(work, b, [&](std::size_t i) { loads[i] = splat_as<NodalVector<Dim>>(0.); });
+  project_particle_loads<Dim, Shape>(state, work, model, b, loads.data());
+  project_face_loads<Dim, Shape>(state, work, model, b, loads.data());
+  for_touched<Dim, Shape>(work, b, [&](std::size_t i) { tiles[i] += loads[i]; });
 }
 
 template <int Dim, class Shape>
-void account_loads(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
-  if (!bears_loads(state.scratch[b])) return;
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
-  const double share = model.transfer_in(state.step).re_extrapolates ? 0.5 : 1.;  // account_loads_anew adds the other half
+void account_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  const double dt = work.now.dt;
+  if (!bears_loads(work.scratch[b])) return;
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(work, b, work.nodes.motion);
+  const double share = model.transfer_in(state.clock.step).re_extrapolates ? 0.5 : 1.;  // account_loads_anew adds the other half
   double power = 0;
-  for_touched<Dim, Shape>(state, b, [&](std::size_t i) {
+  for_touched<Dim, Shape>(work, b, [&](std::size_t i) {
     for (int k = 0; k < Dim; ++k) {
       const double v_end = motion[i].r[0][k], a = Dim == 2 ? motion[i].r[0][2 + k] : motion[i].r[motion_packs<Dim> - 1][k];
-      power += state.scratch[b].loads[i][k] * (share * v_end - 0.5 * a * dt);
+      power += work.scratch[b].loads[i][k] * (share * v_end - 0.5 * a * dt);
     }
   });
-  state.scratch[b].ledger.load_work += power * dt;
+  work.scratch[b].ledger.load_work += power * dt;
 }
 
 template <int Dim, class Shape>
-void account_loads_anew(State<Dim>& state, std::size_t b, double dt) {
-  if (!bears_loads(state.scratch[b])) return;
-  const NodalVector<Dim>* velocity = gathered<Dim, Shape>(state, b, state.nodes.velocity);
+void account_loads_anew(StepWork<Dim>& work, std::size_t b) {
+  const double dt = work.now.dt;
+  if (!bears_loads(work.scratch[b])) return;
+  const NodalVector<Dim>* velocity = gathered<Dim, Shape>(work, b, work.nodes.velocity);
   double power = 0;
-  for_touched<Dim, Shape>(state, b, [&](std::size_t i) {
-    for (int k = 0; k < Dim; ++k) power += 0.5 * state.scratch[b].loads[i][k] * velocity[i][k];
+  for_touched<Dim, Shape>(work, b, [&](std::size_t i) {
+    for (int k = 0; k < Dim; ++k) power += 0.5 * work.scratch[b].loads[i][k] * velocity[i][k];
   });
-  state.scratch[b].ledger.load_work += power * dt;
+  work.scratch[b].ledger.load_work += power * dt;
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                                  \
-  template void project_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, const std::vector<Vec<DIM>>&, NodalVector<DIM>*); \
-  template void account_loads<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double);                                          \
-  template void account_loads_anew<DIM, SHAPE>(State<DIM>&, std::size_t, double);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                    \
+  template void project_loads<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t, NodalVector<DIM>*); \
+  template void account_loads<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);                    \
+  template void account_loads_anew<DIM, SHAPE>(StepWork<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

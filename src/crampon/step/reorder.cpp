@@ -6,7 +6,6 @@
 #include "crampon/core/error.hpp"
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/boundary.hpp"
-#include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/instantiate.hpp"
 
 namespace crampon {
@@ -78,8 +77,8 @@ std::vector<std::size_t> deal_to_blocks(const std::vector<Place>& places, Order&
 template <int Dim, class Shape>
 Order find_order(const State<Dim>& state, const Model<Dim>& model) {
   std::vector<Place> places(state.particles.size());
-  parallel_for(state.blocks.runs.size(), model.threads, [&](std::size_t r) {
-    const Run& run = state.blocks.runs[r];
+  parallel_for(state.order.runs.size(), model.threads, [&](std::size_t r) {
+    const Run& run = state.order.runs[r];
     for (std::size_t p = run.first_pack * lanes; p < run.end_pack * lanes; ++p) {
       places[p] = place_of<Dim, Shape>(state.particles, model.grid, p, run.material);
     }
@@ -151,18 +150,19 @@ void move_lanes(AlignedArray<Pack>& array, std::size_t width, const Order& order
   array = std::move(fresh);
 }
 
+template <class Record>
+void move_array(AlignedArray<Record>& array, PerParticle layout, const Order& order, int threads) {
+  move_records(array, layout.width, order, threads);
+}
+void move_array(AlignedArray<Pack>& array, PerPack layout, const Order& order, int threads) {
+  move_lanes(array, layout.width, order, threads);
+}
+
 template <int Dim>
 void move_particles(Particles<Dim>& particles, const Order& order, int threads) {
-  move_records(particles.motion, motion_packs<Dim>, order, threads);
-  move_lanes(particles.mass_volume, 2, order, threads);
-  move_lanes(particles.stress, stress_size<Dim>, order, threads);
-  move_lanes(particles.history, static_cast<std::size_t>(particles.history_size), order, threads);
-  if (particles.has_domains()) move_lanes(particles.domain, domain_size<Dim>, order, threads);
-  move_records(particles.original, 1, order, threads);
-  if (particles.contact.size() > 0) move_records(particles.contact, 1, order, threads);
-  if (particles.watched) move_records(particles.moved_with, 1, order, threads);
-  move_records(particles.id, 1, order, threads);
-  move_records(particles.body, 1, order, threads);
+  Particles<Dim>::for_arrays(particles, [&](const Member&, auto& array, auto layout) {
+    if (layout.width > 0) move_array(array, layout, order, threads);
+  });
   particles.packs = order.packs();
   for (std::size_t r = 0; r < order.runs.size(); ++r) {
     const std::size_t real = order.runs[r].first_pack * lanes + (order.first[r + 1] - order.first[r]);
@@ -175,10 +175,10 @@ void move_particles(Particles<Dim>& particles, const Order& order, int threads) 
 
 /// Blocks with particles and all around them, in the order of their numbers.
 template <int Dim>
-void build_blocks(Blocks<Dim>& blocks, const Grid<Dim>& grid, const std::vector<std::int64_t>& occupied) {
+void build_blocks(Blocks<Dim>& blocks, const Grid<Dim>& grid, const std::vector<OccupiedBlock>& occupied) {
   std::vector<std::int64_t> numbers;
-  for (const std::int64_t n : occupied) {
-    const auto b = grid.block_coordinates(n);
+  for (const OccupiedBlock& of : occupied) {
+    const auto b = grid.block_coordinates(of.number);
     for (int o = 0; o < neighbour_count<Dim>; ++o) {
       const auto step = unflatten<Dim>(o, 3);
       IndexVector<Dim> c = b;
@@ -215,13 +215,18 @@ void build_blocks(Blocks<Dim>& blocks, const Grid<Dim>& grid, const std::vector<
       b.neighbours[o] = inside ? blocks.of_number[static_cast<std::size_t>(grid.block_number(c))] : no_block;
     }
   }
+  for (const OccupiedBlock& o : occupied) {
+    Block<Dim>& b = blocks.list[blocks.of_number[static_cast<std::size_t>(o.number)]];
+    b.first_run = o.first_run;
+    b.end_run = o.end_run;
+  }
 }
 
 /// What refers to blocks or slots: conditions on nodes, loads on particles.
 template <int Dim>
-void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
+void rebuild_references(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   const Grid<Dim>& grid = model.grid;
-  state.scratch = std::vector<BlockScratch<Dim>>(state.blocks.size());
+  work.scratch = std::vector<BlockScratch<Dim>>(work.blocks.size());
   for (std::size_t c = 0; c < model.conditions.size(); ++c) {
     const auto& condition = model.conditions[c];
     for (const std::int64_t number : condition.nodes) {
@@ -236,7 +241,7 @@ void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
         local += shifted % block_side * stride;
         stride *= block_side;
       }
-      const std::uint32_t b = state.blocks.of_number[static_cast<std::size_t>(grid.block_number(block))];
+      const std::uint32_t b = work.blocks.of_number[static_cast<std::size_t>(grid.block_number(block))];
       if (b == no_block) continue;
       for (std::size_t q = 0; q < condition.components.size(); ++q) {
         FixedComponent f;
@@ -244,40 +249,39 @@ void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
         f.axis = static_cast<std::uint8_t>(condition.components[q].axis);
         f.condition = static_cast<std::uint16_t>(c);
         f.component = static_cast<std::uint16_t>(q);
-        state.scratch[b].fixed.push_back(f);
+        work.scratch[b].fixed.push_back(f);
       }
     }
   }
-  for (auto& scratch : state.scratch) sort_by_component(scratch.fixed);
+  for (auto& scratch : work.scratch) sort_by_component(scratch.fixed);
 
   if (model.loads.empty() && state.cracks.empty()) return;
-  auto& [slot_of_id, block_of_pack] = state.places;
-  slot_of_id.assign(state.particle_count + static_cast<std::size_t>(state.removed), padding_id);
+  auto& [slot_of_id, block_of_pack] = work.places;
+  slot_of_id.assign(state.order.particle_count + static_cast<std::size_t>(state.ledger.removed), padding_id);
   block_of_pack.resize(state.particles.packs);
   for (std::size_t p = 0; p < state.particles.size(); ++p) {
     if (!state.particles.is_padding(p)) slot_of_id[state.particles.id[p]] = static_cast<std::uint32_t>(p);
   }
-  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
-    for (std::uint32_t r = state.blocks.list[b].first_run; r < state.blocks.list[b].end_run; ++r) {
-      const Run& run = state.blocks.runs[r];
+  for (std::size_t b = 0; b < work.blocks.size(); ++b) {
+    for (std::uint32_t r = work.blocks.list[b].first_run; r < work.blocks.list[b].end_run; ++r) {
+      const Run& run = state.order.runs[r];
       std::fill(block_of_pack.begin() + run.first_pack, block_of_pack.begin() + run.end_pack, static_cast<std::uint32_t>(b));
     }
   }
-  if (state.removed > 0) drop_lost_carriers(state);
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
     for (std::size_t e = 0; e < model.loads[l].particles.size(); ++e) {
       const std::uint32_t slot = slot_of_id[model.loads[l].particles[e]];
       if (slot == padding_id) continue;  // removed on leaving the grid
-      state.scratch[block_of_pack[slot / lanes]].loaded.push_back({slot, static_cast<std::uint32_t>(l), static_cast<std::uint32_t>(e)});
+      work.scratch[block_of_pack[slot / lanes]].loaded.push_back({slot, static_cast<std::uint32_t>(l), static_cast<std::uint32_t>(e)});
     }
   }
   for (std::size_t n = 0; n < model.faces.particles.size(); ++n) {
     const std::uint32_t slot = slot_of_id[model.faces.particles[n]];
-    state.faces.present[n] = slot != padding_id;
-    if (slot != padding_id) state.scratch[block_of_pack[slot / lanes]].faces.push_back({slot, static_cast<std::uint32_t>(n)});
+    work.faces.present[n] = slot != padding_id;
+    if (slot != padding_id) work.scratch[block_of_pack[slot / lanes]].faces.push_back({slot, static_cast<std::uint32_t>(n)});
   }
   const auto by_slot = [](const auto& a, const auto& b) { return a.slot < b.slot; };
-  for (auto& scratch : state.scratch) {
+  for (auto& scratch : work.scratch) {
     std::stable_sort(scratch.loaded.begin(), scratch.loaded.end(), by_slot);
     std::sort(scratch.faces.begin(), scratch.faces.end(), by_slot);
   }
@@ -286,38 +290,45 @@ void rebuild_references(State<Dim>& state, const Model<Dim>& model) {
 }  // namespace
 
 template <int Dim, class Shape>
-void reorder(State<Dim>& state, const Model<Dim>& model) {
+void reorder(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   Order order = find_order<Dim, Shape>(state, model);
   move_particles(state.particles, order, model.threads);
-  state.particle_count = order.source.size();
-  state.blocks.runs = std::move(order.runs);
-  build_blocks(state.blocks, model.grid, order.occupied);
+  ParticleOrder& kept = state.order;
+  kept.particle_count = order.source.size();
+  kept.runs = std::move(order.runs);
+  kept.blocks.clear();
   for (std::size_t i = 0; i < order.occupied.size(); ++i) {
-    Block<Dim>& b = state.blocks.list[state.blocks.of_number[static_cast<std::size_t>(order.occupied[i])]];
-    b.first_run = static_cast<std::uint32_t>(order.first_run[i]);
-    b.end_run = static_cast<std::uint32_t>(order.first_run[i + 1]);
+    kept.blocks.push_back(
+        {order.occupied[i], static_cast<std::uint32_t>(order.first_run[i]), static_cast<std::uint32_t>(order.first_run[i + 1])});
   }
-  rebuild_references(state, model);
-  state.nodes.layers.assign(state.blocks.size(), {});
-  parallel_for(state.blocks.size(), model.threads, [&](std::size_t b) {
-    const Block<Dim>& block = state.blocks.list[b];
+  kept.must_reorder = false;
+  kept.step = state.clock.step;
+  lay_out_blocks<Dim, Shape>(state, work, model);
+}
+
+template <int Dim, class Shape>
+void lay_out_blocks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  build_blocks(work.blocks, model.grid, state.order.blocks);
+  rebuild_references(state, work, model);
+  work.nodes.layers.assign(work.blocks.size(), {});
+  parallel_for(work.blocks.size(), model.threads, [&](std::size_t b) {
+    const Block<Dim>& block = work.blocks.list[b];
     if (!block.has_particles()) return;
     Pack low = splat(1e300), high = splat(-1e300);
-    for (std::size_t p = state.blocks.runs[block.first_run].first_pack * lanes; p < state.blocks.runs[block.end_run - 1].end_pack * lanes;
+    for (std::size_t p = state.order.runs[block.first_run].first_pack * lanes; p < state.order.runs[block.end_run - 1].end_pack * lanes;
          ++p) {
       low = lane_min(low, state.particles.motion[p * motion_packs<Dim>]);
       high = lane_max(high, state.particles.motion[p * motion_packs<Dim>]);
     }
-    find_touched_box<Dim, Shape>(state, model, b, low, high);
+    find_touched_box<Dim, Shape>(work, model, b, low, high);
   });
-  state.must_reorder = false;
 }
 
 template <int Dim, class Shape>
-void find_touched_box(State<Dim>& state, const Model<Dim>& model, std::size_t b, Pack lowest, Pack highest) {
+void find_touched_box(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, Pack lowest, Pack highest) {
   using T = Tile<Dim, Shape>;
-  Block<Dim>& block = state.blocks.list[b];
-  BlockHealth& health = state.scratch[b].health;
+  Block<Dim>& block = work.blocks.list[b];
+  BlockHealth& health = work.scratch[b].health;
   const auto first = block.first_node();
   for (int k = 0; k < Dim; ++k) {
     const auto lower_node = [&](double x) {
@@ -336,9 +347,10 @@ void find_touched_box(State<Dim>& state, const Model<Dim>& model, std::size_t b,
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                              \
-  template void reorder<DIM, SHAPE>(State<DIM>&, const Model<DIM>&); \
-  template void find_touched_box<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, Pack, Pack);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                     \
+  template void reorder<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);        \
+  template void lay_out_blocks<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&); \
+  template void find_touched_box<DIM, SHAPE>(StepWork<DIM>&, const Model<DIM>&, std::size_t, Pack, Pack);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

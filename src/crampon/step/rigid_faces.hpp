@@ -3,7 +3,7 @@
 
 #include "crampon/state/rigid.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 

@@ -61,7 +61,7 @@ RigidPose<Dim> moved(RigidPose<Dim> pose, const RigidBody<Dim>& body, double fro
 
 template <int Dim>
 void start_rigid_motion(State<Dim>& state, const Model<Dim>& model, double dt) {
-  const double t = state.time, lead = position_lead(model, dt);
+  const double t = state.clock.time, lead = position_lead(model, dt);
   for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
     const RigidBody<Dim>& body = model.rigid_bodies[b];
     auto& [start, end, present, present_end] = state.rigid[b];
@@ -78,6 +78,11 @@ void start_rigid_motion(State<Dim>& state, const Model<Dim>& model, double dt) {
 }
 
 template <int Dim>
+void move_rigid_bodies(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  start_rigid_motion(state, model, work.now.dt);
+}
+
+template <int Dim>
 void end_rigid_motion(State<Dim>& state) {
   for (RigidMotion<Dim>& motion : state.rigid) {
     motion.start = motion.end;
@@ -85,8 +90,9 @@ void end_rigid_motion(State<Dim>& state) {
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                 \
-  template void start_rigid_motion<DIM>(State<DIM>&, const Model<DIM>&, double); \
+#define CRAMPON_INSTANTIATE(DIM)                                                        \
+  template void start_rigid_motion<DIM>(State<DIM>&, const Model<DIM>&, double);        \
+  template void move_rigid_bodies<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&); \
   template void end_rigid_motion<DIM>(State<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)

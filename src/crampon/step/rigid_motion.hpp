@@ -2,7 +2,7 @@
 /// Rigid bodies: prescribed motion, exact at every step (N13 sec. 3, rigid materials).
 
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
@@ -11,13 +11,18 @@ namespace crampon {
 template <int Dim>
 void start_rigid_motion(State<Dim>& state, const Model<Dim>& model, double dt);
 
+/// The same for the step at hand.
+template <int Dim>
+void move_rigid_bodies(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
 /// Puts the particles of rigid bodies in a block where their bodies are at the start or the end of the step, with their velocities. f(x) is told
 /// every position.
 template <int Dim, class F>
-void place_rigid_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b, RigidPose<Dim> RigidMotion<Dim>::*at, F f) {
-  const Block<Dim>& block = state.blocks.list[b];
+void place_rigid_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
+                           RigidPose<Dim> RigidMotion<Dim>::*at, F f) {
+  const Block<Dim>& block = work.blocks.list[b];
   for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
-    const Run& run = state.blocks.runs[r];
+    const Run& run = state.order.runs[r];
     const MaterialField& field = model.fields[model.materials[run.material].field];
     if (!field.rigid) continue;
     const auto body = static_cast<std::size_t>(field.body);

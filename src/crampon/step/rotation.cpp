@@ -55,9 +55,9 @@ Eigen::Matrix3d inertia_about_centre(const Vec<3>& squares, const Vec<3>& produc
 
 /// f(slot, from a point to the node) for the own nodes of a block in a layer.
 template <int Dim, class F>
-void for_own_nodes(const State<Dim>& state, const Model<Dim>& model, std::size_t b, std::size_t layer, const Vec<Dim>& point, F f) {
-  std::size_t slot = state.nodes.layers[b].slot(layer, 0);
-  const NodalVector<Dim> first = as_nodal(model.grid.node_position(state.blocks.list[b].first_node()) - point);
+void for_own_nodes(const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, std::size_t layer, const Vec<Dim>& point, F f) {
+  std::size_t slot = work.nodes.layers[b].slot(layer, 0);
+  const NodalVector<Dim> first = as_nodal(model.grid.node_position(work.blocks.list[b].first_node()) - point);
   const NodalVector<Dim> cell = as_nodal(model.grid.cell);
   const auto at = [&](int i, int j, int k) {
     NodalVector<Dim> n = splat_as<NodalVector<Dim>>(0.);
@@ -75,23 +75,28 @@ void for_own_nodes(const State<Dim>& state, const Model<Dim>& model, std::size_t
   }
 }
 
-/// f(slot, from the piece's point to the node, piece) for the own nodes of a block that have a part in the rotation of a piece.
-template <int Dim, class F>
-void for_turning_nodes(const State<Dim>& state, const Model<Dim>& model, std::size_t b, Vec<Dim> PieceRotation<Dim>::*point, F f) {
-  const BlockLayers<Dim>& layers = state.nodes.layers[b];
-  const Rotations<Dim>& rotations = state.rotations;
+/// f(slot, from point_of(piece) to the node, piece) for the own nodes of a block that have a part in the rotation of a piece.
+template <int Dim, class Point, class F>
+void for_turning_nodes(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, Point point_of, F f) {
+  const BlockLayers<Dim>& layers = work.nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    const std::uint32_t piece = rotations.in_field(layers.node[l].field);
+    const std::uint32_t piece = state.pieces.in_field(layers.node[l].field);
     if (piece == no_piece) continue;
     if (piece != several_pieces) {
-      for_own_nodes(state, model, b, l, rotations.of_piece[piece].*point, [&](std::size_t i, NodalVector<Dim> r) { f(i, r, piece); });
+      for_own_nodes(work, model, b, l, point_of(piece), [&](std::size_t i, NodalVector<Dim> r) { f(i, r, piece); });
     } else {
-      for_own_nodes(state, model, b, l, Vec<Dim>{}, [&](std::size_t i, NodalVector<Dim> x) {
-        const std::uint32_t its = state.nodes.piece[i].piece;
-        if (its < several_pieces) f(i, x - as_nodal(rotations.of_piece[its].*point), its);
+      for_own_nodes(work, model, b, l, Vec<Dim>{}, [&](std::size_t i, NodalVector<Dim> x) {
+        const std::uint32_t its = work.nodes.piece[i].piece;
+        if (its < several_pieces) f(i, x - as_nodal(point_of(its)), its);
       });
     }
   }
+}
+
+/// The centre of mass of a piece.
+template <int Dim>
+auto centres(const StepWork<Dim>& work) {
+  return [&work](std::uint32_t piece) { return work.rotations[piece].centre; };
 }
 
 /// The entry of a piece among those of a block.
@@ -103,9 +108,9 @@ RotationCouple& couple_of(std::vector<RotationCouple>& couples, std::uint32_t pi
 }
 
 template <int Dim>
-std::vector<RotationCouple> total_couples(const State<Dim>& state) {
-  std::vector<RotationCouple> total(state.rotations.of_piece.size());
-  for (const BlockScratch<Dim>& scratch : state.scratch) {
+std::vector<RotationCouple> total_couples(const State<Dim>& state, const StepWork<Dim>& work) {
+  std::vector<RotationCouple> total(state.pieces.list.size());
+  for (const BlockScratch<Dim>& scratch : work.scratch) {
     for (const RotationCouple& part : scratch.couples) {
       RotationCouple& sum = total[part.piece];
       sum.couple += part.couple;
@@ -119,10 +124,10 @@ std::vector<RotationCouple> total_couples(const State<Dim>& state) {
 }  // namespace
 
 template <int Dim>
-void find_rotations(State<Dim>& state) {
-  Rotations<Dim>& rotations = state.rotations;
-  std::vector<RotationSums> total(rotations.of_piece.size());
-  for (const BlockScratch<Dim>& scratch : state.scratch) {
+void find_rotations(State<Dim>& state, StepWork<Dim>& work) {
+  std::vector<RotationSums> total(state.pieces.list.size());
+  work.rotations.resize(total.size());
+  for (const BlockScratch<Dim>& scratch : work.scratch) {
     for (const RotationSums& part : scratch.rotation) {
       RotationSums& sum = total[part.piece];
       sum.held = sum.held || part.held;
@@ -135,57 +140,59 @@ void find_rotations(State<Dim>& state) {
     }
   }
   for (std::size_t i = 0; i < total.size(); ++i) {
-    PieceRotation<Dim>& rotation = rotations.of_piece[i];
+    const Piece<Dim>& piece = state.pieces.list[i];
+    PieceRotation<Dim>& rotation = work.rotations[i];
     const RotationSums& sum = total[i];
     rotation.inverse_inertia = {};
     rotation.spin = {};
     if (sum.held || !(sum.mass > 0)) continue;
     const Vec<3> to_centre = sum.first * (1 / sum.mass);
-    rotation.centre = rotation.origin;
+    rotation.centre = piece.origin;
     for (std::size_t k = 0; k < Dim; ++k) rotation.centre[k] += to_centre[k];
-    rotation.inverse_inertia = inverse_of(inertia_about_centre(sum.squares, sum.products, sum.mass, to_centre), rotation.about,
+    rotation.inverse_inertia = inverse_of(inertia_about_centre(sum.squares, sum.products, sum.mass, to_centre), piece.about,
                                           1e-12 * (sum.squares[0] + sum.squares[1] + sum.squares[2]));
     rotation.spin = rotation.rotation_of(sum.angular - cross(to_centre, sum.momentum));
   }
 }
 
 template <int Dim, class Shape>
-void assemble_arms(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  Nodes<Dim>& nodes = state.nodes;
+void assemble_arms(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  Nodes<Dim>& nodes = work.nodes;
   const BlockLayers<Dim>& layers = nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    const std::uint32_t piece = state.rotations.in_field(layers.node[l].field);
+    const std::uint32_t piece = state.pieces.in_field(layers.node[l].field);
     if (piece == no_piece) continue;
-    assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_moment, &nodes.arm[layers.slot(l, 0)]);
-    if (piece == several_pieces) assemble_layer<Dim, Shape>(state, b, layers.node[l], nodes.tile_piece, &nodes.piece[layers.slot(l, 0)]);
+    assemble_layer<Dim, Shape>(work, b, layers.node[l], nodes.tile_moment, &nodes.arm[layers.slot(l, 0)]);
+    if (piece == several_pieces) assemble_layer<Dim, Shape>(work, b, layers.node[l], nodes.tile_piece, &nodes.piece[layers.slot(l, 0)]);
   }
-  for_turning_nodes(state, model, b, &PieceRotation<Dim>::origin, [&](std::size_t i, NodalVector<Dim> r, std::uint32_t) {
+  const auto origin_of = [&](std::uint32_t piece) { return state.pieces.list[piece].origin; };
+  for_turning_nodes(state, work, model, b, origin_of, [&](std::size_t i, NodalVector<Dim> r, std::uint32_t) {
     nodes.arm[i] = splat_as<NodalVector<Dim>>(nodes.momentum[i][Dim]) * r - nodes.arm[i];
   });
 }
 
 template <int Dim>
-void carry_rotation(State<Dim>& state, std::size_t b, Spin PieceRotation<Dim>::*spin, double ahead) {
+void carry_rotation(State<Dim>& state, StepWork<Dim>& work, std::size_t b, Spin PieceRotation<Dim>::*spin, double ahead) {
   const NodalVector<Dim> s = splat_as<NodalVector<Dim>>(ahead);
   const auto carried = [&](const SpinProduct<Dim>& turned, NodalVector<Dim> arm) {
     const NodalVector<Dim> once = turned(arm);
     return as_record<Dim>(fused(s, turned(once), once));
   };
-  const BlockLayers<Dim>& layers = state.nodes.layers[b];
-  const Rotations<Dim>& rotations = state.rotations;
-  const NodalVector<Dim>* arm = state.nodes.arm.data();
-  Pack* momentum = state.nodes.momentum.data();
+  const BlockLayers<Dim>& layers = work.nodes.layers[b];
+  const Pieces<Dim>& pieces = state.pieces;
+  const NodalVector<Dim>* arm = work.nodes.arm.data();
+  Pack* momentum = work.nodes.momentum.data();
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    const std::uint32_t piece = rotations.in_field(layers.node[l].field);
+    const std::uint32_t piece = pieces.in_field(layers.node[l].field);
     if (piece == no_piece) continue;
     const std::size_t first = layers.slot(l, 0);
     if (piece != several_pieces) {
-      const SpinProduct<Dim> turned(rotations.of_piece[piece].*spin);
+      const SpinProduct<Dim> turned(work.rotations[piece].*spin);
       for (std::size_t i = first; i < first + block_nodes<Dim>; ++i) momentum[i] += carried(turned, arm[i]);
     } else {
       for (std::size_t i = first; i < first + block_nodes<Dim>; ++i) {
-        const std::uint32_t its = state.nodes.piece[i].piece;
-        if (its < several_pieces) momentum[i] += carried(SpinProduct<Dim>(rotations.of_piece[its].*spin), arm[i]);
+        const std::uint32_t its = work.nodes.piece[i].piece;
+        if (its < several_pieces) momentum[i] += carried(SpinProduct<Dim>(work.rotations[its].*spin), arm[i]);
       }
     }
   }
@@ -224,13 +231,13 @@ class SumsOfPieces {
 }  // namespace
 
 template <int Dim>
-void sum_couples(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  const Nodes<Dim>& nodes = state.nodes;
-  std::vector<RotationCouple>& couples = state.scratch[b].couples;
+void sum_couples(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  const Nodes<Dim>& nodes = work.nodes;
+  std::vector<RotationCouple>& couples = work.scratch[b].couples;
   couples.clear();
   const auto hand_over = [](RotationCouple& c, const auto& sums) { c.couple += sums[0].total(), c.torque += sums[1].total(); };
   SumsOfPieces<Dim, 2, decltype(hand_over)> sums(couples, hand_over);
-  for_turning_nodes(state, model, b, &PieceRotation<Dim>::centre, [&](std::size_t i, NodalVector<Dim> r, std::uint32_t piece) {
+  for_turning_nodes(state, work, model, b, centres(work), [&](std::size_t i, NodalVector<Dim> r, std::uint32_t piece) {
     const NodalVector<Dim> a = acceleration(nodes.motion[i]);
     auto& [couple, torque] = sums.of(piece);
     couple.add(nodes.arm[i], a);
@@ -238,25 +245,40 @@ void sum_couples(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
   });
 }
 
+namespace {
+
+enum class ReadVelocity { motion, term };
 template <int Dim>
-void sum_read_rotation(State<Dim>& state, const Model<Dim>& model, std::size_t b, ReadVelocity read) {
-  const Nodes<Dim>& nodes = state.nodes;
-  std::vector<RotationCouple>& couples = state.scratch[b].couples;
+void sum_read_rotation(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, ReadVelocity read) {
+  const Nodes<Dim>& nodes = work.nodes;
+  std::vector<RotationCouple>& couples = work.scratch[b].couples;
   for (RotationCouple& couple : couples) couple.read = {};
   const auto hand_over = [](RotationCouple& c, const auto& sums) { c.read += sums[0].total(); };
   SumsOfPieces<Dim, 1, decltype(hand_over)> sums(couples, hand_over);
-  for_turning_nodes(state, model, b, &PieceRotation<Dim>::centre, [&](std::size_t i, NodalVector<Dim> r, std::uint32_t piece) {
+  for_turning_nodes(state, work, model, b, centres(work), [&](std::size_t i, NodalVector<Dim> r, std::uint32_t piece) {
     const NodalVector<Dim> m = splat_as<NodalVector<Dim>>(nodes.momentum[i][Dim]);
     const NodalVector<Dim> v = read == ReadVelocity::motion ? leading<Dim>(nodes.motion[i].r[0]) : nodes.velocity[i];
     sums.of(piece)[0].add(m * r - nodes.arm[i], v);
   });
 }
 
+}  // namespace
+
 template <int Dim>
-void answer_couples(State<Dim>& state, const VelocityRule& rule) {
-  const std::vector<RotationCouple> total = total_couples(state);
+void sum_rotation_of_motion(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  sum_read_rotation(state, work, model, b, ReadVelocity::motion);
+}
+template <int Dim>
+void sum_rotation_of_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  sum_read_rotation(state, work, model, b, ReadVelocity::term);
+}
+
+template <int Dim>
+void answer_couples(State<Dim>& state, StepWork<Dim>& work) {
+  const VelocityRule& rule = work.now.rule;
+  const std::vector<RotationCouple> total = total_couples(state, work);
   for (std::size_t i = 0; i < total.size(); ++i) {
-    PieceRotation<Dim>& rotation = state.rotations.of_piece[i];
+    PieceRotation<Dim>& rotation = work.rotations[i];
     const RotationCouple& sum = total[i];
     rotation.acceleration = rotation.rotation_of(sum.couple);
     rotation.spin_end = rotation.spin * (rule.own - rule.damped) + rotation.rotation_of(sum.read * rule.nodal + sum.torque * rule.gain) -
@@ -265,20 +287,20 @@ void answer_couples(State<Dim>& state, const VelocityRule& rule) {
 }
 
 template <int Dim>
-void take_up_couples(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
-  const Rotations<Dim>& rotations = state.rotations;
-  if (!rotations.any()) return;
+void take_up_couples(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, double dt) {
+  const Pieces<Dim>& pieces = state.pieces;
+  if (!pieces.any()) return;
   Particles<Dim>& particles = state.particles;
   constexpr int width = motion_packs<Dim>;
-  const Block<Dim>& block = state.blocks.list[b];
+  const Block<Dim>& block = work.blocks.list[b];
   for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
-    const Run& run = state.blocks.runs[r];
-    const std::uint32_t of_run = rotations.in_field(model.materials[run.material].field);
+    const Run& run = state.order.runs[r];
+    const std::uint32_t of_run = pieces.in_field(model.materials[run.material].field);
     const std::size_t first = std::size_t{run.first_pack} * lanes, end = std::size_t{run.end_pack} * lanes;
     const auto accelerate = [&](std::uint32_t piece, std::size_t from, std::size_t to) {
       if (piece >= several_pieces) return;
-      const SpinProduct<Dim> turned(rotations.of_piece[piece].acceleration * dt);
-      const NodalVector<Dim> centre = as_nodal(rotations.of_piece[piece].centre);
+      const SpinProduct<Dim> turned(work.rotations[piece].acceleration * dt);
+      const NodalVector<Dim> centre = as_nodal(work.rotations[piece].centre);
       for (std::size_t p = from; p < to; ++p) {
         const NodalVector<Dim> dv = turned(leading<Dim>(particles.motion[p * width]) - centre);
         if constexpr (Dim == 2) {
@@ -292,32 +314,34 @@ void take_up_couples(State<Dim>& state, const Model<Dim>& model, std::size_t b, 
       accelerate(of_run, first, end);
     } else {
       for (std::size_t p = first; p < end; ++p) {
-        if (!particles.is_padding(p)) accelerate(rotations.piece_of_particle[particles.id[p]], p, p + 1);
+        if (!particles.is_padding(p)) accelerate(pieces.of_particle[particles.id[p]], p, p + 1);
       }
     }
   }
 }
 
 template <int Dim>
-void find_term_spins(State<Dim>& state) {
-  const std::vector<RotationCouple> total = total_couples(state);
+void find_term_spins(State<Dim>& state, StepWork<Dim>& work) {
+  const std::vector<RotationCouple> total = total_couples(state, work);
   for (std::size_t i = 0; i < total.size(); ++i) {
-    state.rotations.of_piece[i].spin_term = state.rotations.of_piece[i].rotation_of(total[i].read);
+    work.rotations[i].spin_term = work.rotations[i].rotation_of(total[i].read);
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                   \
-  template void find_rotations<DIM>(State<DIM>&);                                                  \
-  template void carry_rotation<DIM>(State<DIM>&, std::size_t, Spin PieceRotation<DIM>::*, double); \
-  template void sum_couples<DIM>(State<DIM>&, const Model<DIM>&, std::size_t);                     \
-  template void sum_read_rotation<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, ReadVelocity); \
-  template void answer_couples<DIM>(State<DIM>&, const VelocityRule&);                             \
-  template void take_up_couples<DIM>(State<DIM>&, const Model<DIM>&, std::size_t, double);         \
-  template void find_term_spins<DIM>(State<DIM>&);
+#define CRAMPON_INSTANTIATE(DIM)                                                                                   \
+  template void find_rotations<DIM>(State<DIM>&, StepWork<DIM>&);                                                  \
+  template void carry_rotation<DIM>(State<DIM>&, StepWork<DIM>&, std::size_t, Spin PieceRotation<DIM>::*, double); \
+  template void sum_couples<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);                     \
+  template void sum_rotation_of_motion<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);          \
+  template void sum_rotation_of_term<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);            \
+  template void answer_couples<DIM>(State<DIM>&, StepWork<DIM>&);                                                  \
+  template void take_up_couples<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t, double);         \
+  template void find_term_spins<DIM>(State<DIM>&, StepWork<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void assemble_arms<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) \
+  template void assemble_arms<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -33,12 +33,12 @@ void take_velocity(Particles<Dim>& particles, std::size_t p, const MotionRecord<
 
 /// `then(pack, stencil, targets)` follows for every pack.
 template <int Dim, class Shape, class Then>
-void for_taken(State<Dim>& state, const Model<Dim>& model, std::size_t b, const VelocityRule& rule, Then&& then) {
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
-  const auto& offsets = state.nodes.layers[b].offsets.motion;
-  BlockLedger<Dim>& ledger = state.scratch[b].ledger;
-  take_up_couples(state, model, b, rule.dt);
-  for_packs<Dim, Shape>(state, model, b,
+void for_taken(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, const VelocityRule& rule, Then&& then) {
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(work, b, work.nodes.motion);
+  const auto& offsets = work.nodes.layers[b].offsets.motion;
+  BlockLedger<Dim>& ledger = work.scratch[b].ledger;
+  take_up_couples(state, work, model, b, rule.dt);
+  for_packs<Dim, Shape>(state, work, model, b,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
                           const bool deformable = !model.is_rigid(model.materials[run.material].field);
                           for (int l = 0; l < lanes && deformable; ++l) {
@@ -52,29 +52,32 @@ void for_taken(State<Dim>& state, const Model<Dim>& model, std::size_t b, const 
 }  // namespace
 
 template <int Dim, class Shape>
-void take_velocities(State<Dim>& state, const Model<Dim>& model, std::size_t b, const VelocityRule& rule) {
-  if (!state.blocks.list[b].has_particles()) return;
-  for_taken<Dim, Shape>(state, model, b, rule, [](std::uint32_t, const Stencil<Dim, Shape>&, const PairTarget*) {});
+void take_velocities(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  const VelocityRule& rule = work.now.rule;
+  if (!work.blocks.list[b].has_particles()) return;
+  for_taken<Dim, Shape>(state, work, model, b, rule, [](std::uint32_t, const Stencil<Dim, Shape>&, const PairTarget*) {});
 }
 
 template <int Dim, class Shape>
-void take_velocities_and_project(State<Dim>& state, const Model<Dim>& model, std::size_t b, const VelocityRule& rule) {
-  if (!state.blocks.list[b].has_particles()) return;
-  Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
-  const Pack* offsets = state.nodes.layers[b].offsets.end.data();
-  for_taken<Dim, Shape>(state, model, b, rule, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
-    Pack record[lanes];
-    for (int l = 0; l < lanes; ++l) {
-      const std::size_t p = std::size_t{pack} * lanes + static_cast<std::size_t>(l);
-      record[l] = state.particles.momentum_record(p, state.particles.mass(p));
-    }
-    scatter<Dim, Shape>(stencil, targets, offsets, record, tiles);
-  });
+void take_velocities_and_project(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  const VelocityRule& rule = work.now.rule;
+  if (!work.blocks.list[b].has_particles()) return;
+  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_momentum);
+  const Pack* offsets = work.nodes.layers[b].offsets.end.data();
+  for_taken<Dim, Shape>(state, work, model, b, rule,
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
+                          Pack record[lanes];
+                          for (int l = 0; l < lanes; ++l) {
+                            const std::size_t p = std::size_t{pack} * lanes + static_cast<std::size_t>(l);
+                            record[l] = state.particles.momentum_record(p, state.particles.mass(p));
+                          }
+                          scatter<Dim, Shape>(stencil, targets, offsets, record, tiles);
+                        });
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                        \
-  template void take_velocities<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, const VelocityRule&); \
-  template void take_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, const VelocityRule&);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                   \
+  template void take_velocities<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t); \
+  template void take_velocities_and_project<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

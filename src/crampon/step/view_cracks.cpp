@@ -129,8 +129,8 @@ bool comes_near(const SeenCrack& crack, const Mirror& mirror, double reach) {
 
 }  // namespace
 
-void view_cracks(State<2>& state, const Model<2>& model, int reach) {
-  CrackView& view = state.crack_view;
+void view_cracks(State<2>& state, StepWork<2>& work, const Model<2>& model, int reach) {
+  CrackView& view = work.crack_view;
   const std::size_t count = state.cracks.size();
   view.cracks = count;
   view.seen.assign(count * (1 + model.symmetries.size()), {});

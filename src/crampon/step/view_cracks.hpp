@@ -2,12 +2,12 @@
 /// Task 0: the cracks as the crossing tests see them, together with their images in symmetry planes.
 
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
+#include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
 /// Fills State::crack_view. `reach`: how many cells beyond its own a particle has nodes.
-void view_cracks(State<2>& state, const Model<2>& model, int reach);
+void view_cracks(State<2>& state, StepWork<2>& work, const Model<2>& model, int reach);
 
 /// A line from a particle to a node beyond a symmetry plane crosses `crack`. Mirrored in the plane, the line ends at the mirror node, and
 /// it crosses the image of the crack. Returns this image, by which the pair is parted from the mirror node. The image of an image is the

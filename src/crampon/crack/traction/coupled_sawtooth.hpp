@@ -1,6 +1,6 @@
 #pragma once
 #include "crampon/core/vector.hpp"
-#include "crampon/crack/traction/history.hpp"
+#include "crampon/crack/traction/response.hpp"
 #include "crampon/crack/traction/triangular.hpp"
 
 namespace crampon {

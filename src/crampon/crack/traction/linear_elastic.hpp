@@ -1,7 +1,7 @@
 #pragma once
 #include "crampon/core/declaration.hpp"
 #include "crampon/core/vector.hpp"
-#include "crampon/crack/traction/history.hpp"
+#include "crampon/crack/traction/response.hpp"
 
 namespace crampon {
 

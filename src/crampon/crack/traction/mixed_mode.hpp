@@ -4,7 +4,7 @@
 #include "crampon/core/vector.hpp"
 #include "crampon/crack/traction/cubic.hpp"
 #include "crampon/crack/traction/exponential.hpp"
-#include "crampon/crack/traction/history.hpp"
+#include "crampon/crack/traction/response.hpp"
 #include "crampon/crack/traction/triangular.hpp"
 #include "crampon/crack/traction/trilinear.hpp"
 

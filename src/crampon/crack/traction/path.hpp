@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crampon/crack/traction/history.hpp"
+#include "crampon/crack/traction/response.hpp"
 
 namespace crampon {
 

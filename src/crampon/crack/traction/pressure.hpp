@@ -3,7 +3,7 @@
 
 #include "crampon/core/declaration.hpp"
 #include "crampon/core/vector.hpp"
-#include "crampon/crack/traction/history.hpp"
+#include "crampon/crack/traction/response.hpp"
 
 namespace crampon {
 

@@ -65,7 +65,7 @@ std::vector<BodySpace<Dim>> find_body_spaces(const Problem& problem, const Model
   std::vector<BodySpace<Dim>> spaces;
   for (const BodyInput& in : problem.bodies) spaces.emplace_back(in.name, in, in.shape, model.grid);
   for (const RigidInput& in : problem.rigids) spaces.emplace_back(in.name, in, in.shape, model.grid);
-  for (const Run& run : state.blocks.runs) {
+  for (const Run& run : state.order.runs) {
     const Material<Dim>& material = model.materials[run.material];
     Vec<Dim> half;
     double box = 1;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "crampon/input/problem.hpp"
+#include "crampon/state/state.hpp"
 #include "crampon/step/model.hpp"
-#include "crampon/step/state.hpp"
 
 namespace crampon {
 

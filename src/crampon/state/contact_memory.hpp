@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
+#include "crampon/core/members.hpp"
 #include "crampon/state/layers.hpp"
 
 namespace crampon {
@@ -26,12 +28,30 @@ struct ContactName {
   std::uint8_t face = 0;  ///< 1 and more: of a corner in which one body meets the other by several faces
   bool between_materials() const { return crack == no_crack; }
   auto operator<=>(const ContactName&) const = default;
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [crack, field_a, field_b, others, rest, face] = self;
+    visit(Member{"crack"}, crack);
+    visit(Member{"field_a"}, field_a);
+    visit(Member{"field_b"}, field_b);
+    visit(Member{"others"}, others);
+    visit(Member{"rest"}, rest);
+    visit(Member{"face"}, face);
+  }
 };
 
 struct ContactKey {
   std::int64_t node = 0;
   ContactName name;
   auto operator<=>(const ContactKey&) const = default;
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [node, name] = self;
+    visit(Member{"node"}, node);
+    visit(Member{"name"}, name);
+  }
 };
 
 /// On which side of a crack a node lay.
@@ -40,6 +60,14 @@ struct NodeSide {
   CrackId crack = 0;
   std::int8_t side = 0;  ///< of the particles across: +1 above, -1 below
   auto key() const { return std::pair{node, crack}; }
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [node, crack, side] = self;
+    visit(Member{"node"}, node);
+    visit(Member{"crack"}, crack);
+    visit(Member{"side"}, side);
+  }
 };
 
 /// Sorted by key; entries that are not there were open.
@@ -47,9 +75,25 @@ struct ContactMemory {
   struct Entry {
     ContactKey key;
     ContactState state = ContactState::open;
+
+    template <class Self, class Visit>
+    static void for_members(Self& self, Visit&& visit) {
+      auto& [key, state] = self;
+      visit(Member{"key"}, key);
+      visit(Member{"state"}, state);
+    }
   };
   std::vector<Entry> entries;
   std::vector<NodeSide> sides;
+  std::unordered_map<std::int64_t, double> initial_volume;  ///< by node number: of the uncut body at the start, m2 or m3 (conventions 10)
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [entries, sides, initial_volume] = self;
+    visit(Member{"entries"}, entries);
+    visit(Member{"sides"}, sides);
+    visit(Member{"initial_volume", "m2 or m3"}, initial_volume);
+  }
 
   ContactState find(const ContactKey& key) const {
     const auto at = std::lower_bound(entries.begin(), entries.end(), key, [](const Entry& e, const ContactKey& k) { return e.key < k; });

@@ -1,4 +1,4 @@
-#include "crampon/step/update_particles.hpp"
+#include "crampon/step/move_particles.hpp"
 
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/interpolate.hpp"
@@ -32,16 +32,6 @@ struct Advance {
   }
 };
 
-/// v += a dt. The position keeps its bits even where a is not a number, because stencils that are still to come in this step are found from
-/// it.
-template <int Dim>
-void accelerate(Particles<Dim>& particles, std::size_t p, const MotionRecord<Dim>& m, double dt) {
-  constexpr int last = motion_packs<Dim> - 1;
-  Pack& q = particles.motion[p * motion_packs<Dim> + last];
-  const Pack moved = fused(splat(dt), m.r[last], q);
-  q = Dim == 2 ? __builtin_shufflevector(q, moved, 0, 1, 6, 7) : moved;
-}
-
 /// Before the step, lead_positions() has moved the particle on by the time `further`, s, with the particle's own velocity. The velocity
 /// that moves particles in this step was not known then. Replaces the one by the other for that time.
 template <int Dim>
@@ -50,31 +40,6 @@ void correct_lead(Particles<Dim>& particles, std::size_t p, const MotionRecord<D
   Pack& x = particles.motion[p * motion_packs<Dim>];
   for (int k = 0; k < Dim; ++k) x[k] += further * (m.r[0][k] - v[k]);
 }
-
-}  // namespace
-
-template <int Dim, class Shape>
-void update_velocities_and_project(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt) {
-  if (!state.blocks.list[b].has_particles()) return;
-  take_up_couples(state, model, b, dt);
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
-  Pack* tiles = cleared_tiles<Dim, Shape>(state, b, state.nodes.tile_momentum);
-  Particles<Dim>& particles = state.particles;
-  const PairOffsets<Dim>& offsets = state.nodes.layers[b].offsets;
-  for_packs<Dim, Shape>(state, model, b,
-                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
-                          const Pack m_p = particles.mass_volume[2 * std::size_t{pack}];
-                          Pack record[lanes];
-                          for (int l = 0; l < lanes; ++l) {
-                            const std::size_t p = std::size_t{pack} * lanes + l;
-                            accelerate(particles, p, interpolate<Dim, Shape>(stencil, targets, l, motion, offsets.motion), dt);
-                            record[l] = particles.momentum_record(p, m_p[l]);
-                          }
-                          scatter<Dim, Shape>(stencil, targets, offsets.end.data(), record, tiles);
-                        });
-}
-
-namespace {
 
 /// r <- (I + L dt) r for the half edges of the domains of a pack: their corners move with the nodes, as positions do.
 template <int Dim>
@@ -92,9 +57,9 @@ void stretch_domains(Particles<Dim>& particles, std::uint32_t pack, const Pack* 
 
 /// Particles take up what the nodes in contact beside them have gained: the mean over those nodes.
 template <int Dim, class Shape>
-void remember_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b) {
-  const ContactSums<Dim>* gains = gathered<Dim, Shape>(state, b, state.nodes.contact);
-  for_packs<Dim, Shape>(state, model, b,
+void remember_contact(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  const ContactSums<Dim>* gains = gathered<Dim, Shape>(work, b, work.nodes.contact);
+  for_packs<Dim, Shape>(state, work, model, b,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
                           for (int l = 0; l < lanes; ++l) {
                             double gain = 0, weight = 0;
@@ -107,18 +72,21 @@ void remember_contact(State<Dim>& state, const Model<Dim>& model, std::size_t b)
                         });
 }
 
-}  // namespace
+/// Do particles strain before they move, and do they take accelerations as they do?
+enum class Strain { done, now };
+enum class Accelerate { done, now };
 
 template <int Dim, class Shape>
-void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, double further, double stress_dt,
-                      bool with_velocities) {
-  if (!state.blocks.list[b].has_particles()) return;
+void finish_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, Strain strain,
+                      Accelerate accelerate) {
+  const double dt = work.now.dt, further = work.now.further;
+  if (!work.blocks.list[b].has_particles()) return;
   Particles<Dim>& particles = state.particles;
-  if (particles.contact.size() > 0 && state.nodes.layers[b].sums_contact) remember_contact<Dim, Shape>(state, model, b);
-  if (with_velocities) take_up_couples(state, model, b, dt);
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(state, b, state.nodes.motion);
-  const Advance<Dim> advance(dt, with_velocities ? dt : 0.);
-  const PairOffsets<Dim>& offsets = state.nodes.layers[b].offsets;
+  if (particles.contact.size() > 0 && work.nodes.layers[b].sums_contact) remember_contact<Dim, Shape>(state, work, model, b);
+  if (accelerate == Accelerate::now) take_up_couples(state, work, model, b, dt);
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(work, b, work.nodes.motion);
+  const Advance<Dim> advance(dt, accelerate == Accelerate::now ? dt : 0.);
+  const PairOffsets<Dim>& offsets = work.nodes.layers[b].offsets;
   Vec<Dim>* moved_with = particles.watched ? particles.moved_with.data() : nullptr;
   const bool corrects = further != 0;
   constexpr int position_pack = 0, width = motion_packs<Dim>;
@@ -142,12 +110,12 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
     low = lowest, high = highest, fastest = speed, check = bad;
   };
   const NodalVector<Dim>* end_velocity =
-      Shape::has_domains || stress_dt > 0 ? gathered<Dim, Shape>(state, b, state.nodes.velocity) : nullptr;
+      Shape::has_domains || strain == Strain::now ? gathered<Dim, Shape>(work, b, work.nodes.velocity) : nullptr;
   const auto walk = [&](const auto& visit) {
-    if (stress_dt > 0) {
-      update_stress<Dim, Shape>(state, model, b, stress_dt, end_velocity, offsets.end, visit);
+    if (strain == Strain::now) {
+      update_stress<Dim, Shape>(state, work, model, b, work.now.stress_dt, end_velocity, offsets.end, visit);
     } else {
-      for_packs<Dim, Shape>(state, model, b, visit);
+      for_packs<Dim, Shape>(state, work, model, b, visit);
     }
   };
   if constexpr (Shape::has_domains) {
@@ -163,11 +131,11 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
     walk(move);
   }
   if (!model.rigid_bodies.empty()) {
-    place_rigid_particles(state, model, b, &RigidMotion<Dim>::end, [&](const Vec<Dim>& x) {
+    place_rigid_particles(state, work, model, b, &RigidMotion<Dim>::end, [&](const Vec<Dim>& x) {
       for (int k = 0; k < Dim; ++k) low[k] = std::fmin(low[k], x[k]), high[k] = std::fmax(high[k], x[k]);
     });
   }
-  BlockHealth& health = state.scratch[b].health;
+  BlockHealth& health = work.scratch[b].health;
   for (int l = 0; l < lanes; ++l) {
     if (check[l] != 0) health.bad_number = true;
   }
@@ -175,12 +143,33 @@ void finish_particles(State<Dim>& state, const Model<Dim>& model, std::size_t b,
   for (int k = 0; k < Dim; ++k) {
     if (fastest[k] * dt > model.grid.cell[k]) health.moved_too_far = true;
   }
-  find_touched_box<Dim, Shape>(state, model, b, low, high);
+  find_touched_box<Dim, Shape>(work, model, b, low, high);
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                         \
-  template void update_velocities_and_project<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double); \
-  template void finish_particles<DIM, SHAPE>(State<DIM>&, const Model<DIM>&, std::size_t, double, double, double, bool);
+}  // namespace
+
+template <int Dim, class Shape>
+void move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  finish_particles<Dim, Shape>(state, work, model, b, Strain::done, Accelerate::done);
+}
+template <int Dim, class Shape>
+void accelerate_and_move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  finish_particles<Dim, Shape>(state, work, model, b, Strain::done, Accelerate::now);
+}
+template <int Dim, class Shape>
+void update_stress_and_move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  finish_particles<Dim, Shape>(state, work, model, b, Strain::now, Accelerate::done);
+}
+template <int Dim, class Shape>
+void update_stress_accelerate_and_move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
+  finish_particles<Dim, Shape>(state, work, model, b, Strain::now, Accelerate::now);
+}
+
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                    \
+  template void move_particles<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);                   \
+  template void accelerate_and_move_particles<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);    \
+  template void update_stress_and_move_particles<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t); \
+  template void update_stress_accelerate_and_move_particles<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -1,26 +1,19 @@
 #pragma once
-/// What changes during a run.
+/// What one step works with.
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
-#include <limits>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "crampon/contact/face_contact.hpp"
-#include "crampon/contact/memory.hpp"
 #include "crampon/contact/node_solve.hpp"
-#include "crampon/crack/traction/history.hpp"
 #include "crampon/state/blocks.hpp"
-#include "crampon/state/cracks.hpp"
 #include "crampon/state/nodes.hpp"
-#include "crampon/state/particles.hpp"
-#include "crampon/state/rigid.hpp"
-#include "crampon/state/rotation.hpp"
+#include "crampon/state/state.hpp"
 #include "crampon/step/crack_view.hpp"
+#include "crampon/step/transfer.hpp"
 
 namespace crampon {
 
@@ -52,7 +45,6 @@ template <int Dim>
 struct FaceStates {
   std::vector<std::array<double, Dim * Dim>> deformation;  ///< per particle: F[d * Dim + k]
   std::vector<double> sum;                                 ///< per link: of its weights over all nodes, m2
-  std::vector<Vec<Dim>> area_vector;                       ///< per column: of the deformed face over the undeformed area
   std::vector<Vec<Dim>> traction;                          ///< per column, Pa of the undeformed area
   std::vector<double> rest;                                ///< per column: what a link's sum lacks of its part of the area, m2
   std::vector<bool> present;                               ///< per particle: not removed on leaving the grid
@@ -99,54 +91,11 @@ struct BlockHealth {
   bool trouble() const { return bad_number || inverted || moved_too_far || left_grid; }
 };
 
-/// Energy totals since the start, J.
-struct EnergyTotals {
-  double load_work = 0, body_work = 0, boundary_work = 0, damping = 0, contact_loss = 0, friction_loss = 0, transfer_loss = 0;
-  double interfaces = 0;  ///< held by interfaces now
-};
-
-/// Sums over particles.
-template <int Dim>
-struct ParticleSums {
-  double mass = 0, kinetic = 0, strain = 0;  ///< kg, J, J
-  Vec<Dim> momentum;                         ///< kg m/s
-  double angular = 0;                        ///< z component about the origin, kg m2/s
-  ParticleSums& operator+=(const ParticleSums& other) {
-    mass += other.mass, kinetic += other.kinetic, strain += other.strain, angular += other.angular;
-    momentum += other.momentum;
-    return *this;
-  }
-};
-
 /// A force on a node in one field.
 template <int Dim>
 struct NodalForce {
   std::size_t slot = 0;  ///< in the nodal arrays
   Vec<Dim> force;        ///< N
-};
-
-/// Tractions on one crack, per vertex; empty without a law.
-template <int Dim>
-struct CrackTractionState {
-  std::vector<TractionHistory> history;
-  std::vector<Vec<Dim>> force;  ///< on the upper surface in the next step, N
-  std::vector<double> stored;   ///< J/m2
-  std::vector<bool> between;    ///< there is material on both sides in this step
-};
-
-/// All traction laws together, J.
-struct CohesiveTotals {
-  double stored = 0, dissipated_normal = 0, dissipated_shear = 0;
-  double work_of_pressure = 0;  ///< done on the body from outside
-};
-
-/// A vertex whose traction law has failed.
-template <int Dim>
-struct FailureEvent {
-  double time = 0;  ///< s
-  std::size_t crack = 0;
-  Vec<Dim> x;                ///< m
-  double G_I = 0, G_II = 0;  ///< dissipated there, J/m2
 };
 
 /// Per block, per step: what belongs to nodes with conditions or contact.
@@ -177,40 +126,48 @@ struct Phase {
   double seconds = 0;
 };
 
+/// What holds for the whole of a step: set before its first stage (step/advance.cpp), and what is prescribed by the stage "prescribe".
+struct StepValues {
+  double dt = 0;         ///< s
+  double lead = 0;       ///< of positions before the time of the step, s
+  double further = 0;    ///< by which they lead more than in the last step, s
+  double stress_dt = 0;  ///< over which a stress update of the step strains, s
+  bool watched = false;  ///< someone will look at the state after the step
+  StepTransfer transfer;
+  VelocityRule rule;
+  int term = 1;  ///< of the series of a transfer
+};
+
+/// What one step prescribes.
 template <int Dim>
-struct State {
-  double time = 0;
-  std::int64_t step = 0;
-  Particles<Dim> particles;
-  Cracks<Dim> cracks;
-  CrackView crack_view;
+struct Prescribed {
+  std::vector<Vec<Dim>> loads;  ///< per load, N per share or Pa
+  Vec<Dim> body_force;          ///< m/s2
+  double damping = 0;           ///< of nodes, 1/s
+  double particle_damping = 0;  ///< 1/s
+};
+
+/// All that a step finds anew: blocks, velocity fields, nodes, tiles, contacts. Nothing here outlives the step but what follows from the order of
+/// particles (blocks, places, conditions of blocks), which re-ordering and loading build.
+template <int Dim>
+struct StepWork {
   Blocks<Dim> blocks;
   ParticlePlaces places;
+  CrackView crack_view;
   Nodes<Dim> nodes;
   std::vector<BlockScratch<Dim>> scratch;  ///< per block
   FaceContacts<Dim> face_contacts;
-  ContactMemory memory;
-  std::vector<CrackTractionState<Dim>> tractions;  ///< per crack
   FaceStates<Dim> faces;
-  CohesiveTotals cohesive;
-  double traction_time_step = std::numeric_limits<double>::infinity();        ///< longest that the springs of traction laws bear now, s
-  double least_traction_time_step = std::numeric_limits<double>::infinity();  ///< ... since the start
-  std::vector<FailureEvent<Dim>> events;                                      ///< since the start
-  Rotations<Dim> rotations;
-  std::vector<RigidMotion<Dim>> rigid;              ///< per rigid body
-  std::vector<RigidReaction<Dim>> rigid_reactions;  ///< per rigid body, last step
-  std::vector<std::int64_t> prescribed_by_rigid;    ///< node number * Dim + axis, ascending: last step
-  std::vector<bool> condition_was_active;
-  std::unordered_map<std::int64_t, double> initial_volume;  ///< by node number: of the uncut body at the start, m2 or m3 (conventions 10)
-  bool must_reorder = true;
-  std::size_t particle_count = 0;
-  std::int64_t removed = 0;  ///< particles removed on leaving the grid
-  ParticleSums<Dim> left;    ///< what they took along
+  std::vector<PieceRotation<Dim>> rotations;  ///< per piece
+  StepValues now;
+  Prescribed<Dim> prescribed;
+  std::vector<Phase> phases;  ///< wall time since the start
 
-  EnergyTotals energy;
-  std::vector<Vec<Dim>> reactions;  ///< per condition, last step, N
-  std::int64_t most_unsolved_nodes = 0, most_crowded_nodes = 0;
-  std::vector<Phase> phases;
+  StepWork() = default;
+  StepWork(StepWork&&) = default;
+  StepWork& operator=(StepWork&&) = default;
+  StepWork(const StepWork&) = delete;  // paths of cracks are views into it
+  StepWork& operator=(const StepWork&) = delete;
 };
 
 }  // namespace crampon

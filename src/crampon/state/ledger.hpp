@@ -1,0 +1,120 @@
+#pragma once
+/// The books of a run: energies since the start, what left, what conditions and loads have met.
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "crampon/core/members.hpp"
+#include "crampon/core/vector.hpp"
+#include "crampon/state/rigid.hpp"
+
+namespace crampon {
+
+/// Energy totals since the start, J.
+struct EnergyTotals {
+  double load_work = 0, body_work = 0, boundary_work = 0, damping = 0, contact_loss = 0, friction_loss = 0, transfer_loss = 0;
+  double interfaces = 0;  ///< held by interfaces now
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [load_work, body_work, boundary_work, damping, contact_loss, friction_loss, transfer_loss, interfaces] = self;
+    visit(Member{"load_work", "J"}, load_work);
+    visit(Member{"body_work", "J"}, body_work);
+    visit(Member{"boundary_work", "J"}, boundary_work);
+    visit(Member{"damping", "J"}, damping);
+    visit(Member{"contact_loss", "J"}, contact_loss);
+    visit(Member{"friction_loss", "J"}, friction_loss);
+    visit(Member{"transfer_loss", "J"}, transfer_loss);
+    visit(Member{"interfaces", "J"}, interfaces);
+  }
+};
+
+/// Sums over particles.
+template <int Dim>
+struct ParticleSums {
+  double mass = 0, kinetic = 0, strain = 0;  ///< kg, J, J
+  Vec<Dim> momentum;                         ///< kg m/s
+  double angular = 0;                        ///< z component about the origin, kg m2/s
+  ParticleSums& operator+=(const ParticleSums& other) {
+    mass += other.mass, kinetic += other.kinetic, strain += other.strain, angular += other.angular;
+    momentum += other.momentum;
+    return *this;
+  }
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [mass, kinetic, strain, momentum, angular] = self;
+    visit(Member{"mass", "kg"}, mass);
+    visit(Member{"kinetic", "J"}, kinetic);
+    visit(Member{"strain", "J"}, strain);
+    visit(Member{"momentum", "kg m/s"}, momentum);
+    visit(Member{"angular", "kg m2/s"}, angular);
+  }
+};
+
+/// All traction laws together, J.
+struct CohesiveTotals {
+  double stored = 0, dissipated_normal = 0, dissipated_shear = 0;
+  double work_of_pressure = 0;  ///< done on the body from outside
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [stored, dissipated_normal, dissipated_shear, work_of_pressure] = self;
+    visit(Member{"stored", "J"}, stored);
+    visit(Member{"dissipated_normal", "J"}, dissipated_normal);
+    visit(Member{"dissipated_shear", "J"}, dissipated_shear);
+    visit(Member{"work_of_pressure", "J"}, work_of_pressure);
+  }
+};
+
+/// A vertex whose traction law has failed.
+template <int Dim>
+struct FailureEvent {
+  double time = 0;  ///< s
+  std::uint64_t crack = 0;
+  Vec<Dim> x;                ///< m
+  double G_I = 0, G_II = 0;  ///< dissipated there, J/m2
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [time, crack, x, G_I, G_II] = self;
+    visit(Member{"time", "s"}, time);
+    visit(Member{"crack"}, crack);
+    visit(Member{"x", "m"}, x);
+    visit(Member{"G_I", "J/m2"}, G_I);
+    visit(Member{"G_II", "J/m2"}, G_II);
+  }
+};
+
+template <int Dim>
+struct Ledger {
+  EnergyTotals energy;
+  CohesiveTotals cohesive;
+  std::vector<FailureEvent<Dim>> failures;  ///< since the start
+  std::int64_t removed = 0;                 ///< particles removed on leaving the grid
+  ParticleSums<Dim> left;                   ///< what they took along
+  std::int64_t most_unsolved_nodes = 0, most_crowded_nodes = 0;
+
+  std::vector<Vec<Dim>> reactions;                  ///< per condition, last step, N
+  std::vector<RigidReaction<Dim>> rigid_reactions;  ///< per rigid body, last step
+  std::vector<Vec<Dim>> face_areas;  ///< per loaded column (step/loaded_faces.hpp): of the deformed face over the undeformed area
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [energy, cohesive, failures, removed, left, most_unsolved_nodes, most_crowded_nodes, reactions, rigid_reactions, face_areas] =
+        self;
+    visit(Member{"energy"}, energy);
+    visit(Member{"cohesive"}, cohesive);
+    visit(Member{"failures"}, failures);
+    visit(Member{"removed"}, removed);
+    visit(Member{"left"}, left);
+    visit(Member{"most_unsolved_nodes"}, most_unsolved_nodes);
+    visit(Member{"most_crowded_nodes"}, most_crowded_nodes);
+    visit(Member{"reactions", "N", Use::display}, reactions);
+    visit(Member{"rigid_reactions", "N, N m", Use::display}, rigid_reactions);
+    visit(Member{"face_areas", "1", Use::display}, face_areas);
+  }
+};
+
+}  // namespace crampon
