@@ -3,6 +3,7 @@
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/mirrored_forces.hpp"
 #include "crampon/step/moment_projection.hpp"
+#include "crampon/step/particle_view.hpp"
 #include "crampon/step/project_loads.hpp"
 #include "crampon/step/stress_pass.hpp"
 #include "crampon/step/tile_buffer.hpp"
@@ -126,9 +127,8 @@ void project_contact_sums(State<Dim>& state, const Model<Dim>& model, std::size_
         const Material<Dim>& material = model.materials[run.material];
         Pack volume = splat(0.);
         if (volumes) {
-          const PackReport report = material.law->report(model.stress_state, Dim, &particles.stress[std::size_t{pack} * stress_size<Dim>],
-                                                         particles.history.data() + std::size_t{pack} * particles.history_size);
-          volume = particles.mass_volume[2 * std::size_t{pack} + 1] * report.area_ratio / material.thickness;
+          const Pack area_ratio = PackView<Dim>(state, model, run.material, pack).report().area_ratio;
+          volume = particles.mass_volume[2 * std::size_t{pack} + 1] * area_ratio / material.thickness;
         }
         for (int l = 0; l < lanes; ++l) {
           const std::size_t p = std::size_t{pack} * lanes + l;

@@ -109,10 +109,11 @@ struct EnergyTotals {
 template <int Dim>
 struct ParticleSums {
   double mass = 0, kinetic = 0, strain = 0;  ///< kg, J, J
+  double dissipated = 0;                     ///< by material laws since the start, J
   Vec<Dim> momentum;                         ///< kg m/s
   double angular = 0;                        ///< z component about the origin, kg m2/s
   ParticleSums& operator+=(const ParticleSums& other) {
-    mass += other.mass, kinetic += other.kinetic, strain += other.strain, angular += other.angular;
+    mass += other.mass, kinetic += other.kinetic, strain += other.strain, dissipated += other.dissipated, angular += other.angular;
     momentum += other.momentum;
     return *this;
   }
