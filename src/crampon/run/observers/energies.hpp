@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "crampon/run/observers/observer.hpp"
 
 namespace crampon {
@@ -66,10 +68,7 @@ class Energies final : public Observer<Dim> {
     return all;
   }
 
-  void start(const StartOfRun<Dim>& run) override {
-    for (const Material<Dim>& material : run.now.model.materials) laws_dissipate_ = laws_dissipate_ || material.law->dissipated(Dim);
-    at_start_ = run.now.sums().kinetic + run.now.sums().strain;
-  }
+  void start(const StartOfRun<Dim>& run) override { at_start_ = run.now.sums().kinetic + run.now.sums().strain; }
   void look(const Present<Dim>& now, Cells& cells) const override {
     EnergyBalance b;
     b.kinetic = now.sums().kinetic;
@@ -77,14 +76,15 @@ class Energies final : public Observer<Dim> {
     b.totals = now.state.energy;
     b.cohesive = now.state.cohesive;
     b.material_loss = now.sums().dissipated + now.state.left.dissipated;
-    b.laws_dissipate = laws_dissipate_;
+    const auto& materials = now.model.materials;
+    b.laws_dissipate =
+        std::any_of(materials.begin(), materials.end(), [](const Material<Dim>& m) { return m.law->dissipated(Dim) != nullptr; });
     b.left = now.state.left.kinetic + now.state.left.strain;
     b.at_start = at_start_;
     cells.add<Dim>(table(), b);
   }
 
  private:
-  bool laws_dissipate_ = false;
   double at_start_ = 0;
 };
 
