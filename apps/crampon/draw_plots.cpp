@@ -117,7 +117,7 @@ void draw_profile(const DrawArguments& arguments, const ResultsFolder& folder, c
     if (axis >= static_cast<std::size_t>(frame.dimension)) throw UsageError("--profile z: these results are in the plane; choose x or y");
     if (is_category(frame, shown))
       throw UsageError(fmt::format("--profile: the numbers of \"{}\" are names and have no place on an axis; draw a picture of it", shown));
-    const Quantity quantity = evaluate_quantity(frame, shown, arguments.fringe_constant.value_or(paper_fringe_constant));
+    const PointValues quantity = evaluate_quantity(frame, shown, arguments.fringe_constant.value_or(paper_fringe_constant));
     const std::vector<bool> rigid = moment.of_rigid_bodies();  // they have no stress, and pictures do not colour them either
     Curve& curve = curves.emplace_back();
     curve.label = quantity_text(frame.time, frames[chosen.back()].time, "s");

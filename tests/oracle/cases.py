@@ -148,6 +148,11 @@ def material_cases():
                cracks=[{"points": path((6.3, 8.1), (9.6, 8.2)), "law": "coulomb", "friction": 0.3}], steps=60)
     yield base("neo_hookean_stretch", block((3, 6), (11, 9), lambda x, y: (3 * (x - 7) / 4, 0.2 * math.sin(x))),
                materials=material("neo_hookean"), shape="bspline", stress_update="musl", steps=60)
+    # Yields at a strain of 2 %, and in parts of the block again on the way back.
+    steel = material("j2_plasticity", yield_stress=2e3, hardening_modulus=8e3)
+    for analysis, update, shape in (("plane_strain", "usavg", "gimp"), ("plane_stress", "musl", "bspline")):
+        yield base("j2_plasticity_%s" % analysis, block((3, 6), (11, 9), lambda x, y: (3 * (x - 7) / 4 - 0.5 * (y - 7), 0.6 * math.sin(x))),
+                   materials=steel, shape=shape, stress_update=update, analysis=analysis, steps=60)
     t = 0.002
     yield base("plane_stress_thin", block((3, 4), (9, 10), breathing, thickness=t), analysis="plane_stress",
                bodies=[{"material": "m", "thickness": t, "particles": block((3, 4), (9, 10), breathing, thickness=t)}],

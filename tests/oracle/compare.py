@@ -37,6 +37,8 @@ def oracle_frames(case):
         frame = {"position": x, "velocity": [list(p.v) for p in particles],
                  "displacement": [[now[k] - p.X[k] for k in range(2)] for now, p in zip(x, particles)],
                  "stress": [[s[0], s[1], s[2], s[3]] for s in stress]}
+        if all(hasattr(p.material, "alpha") for p in particles):
+            frame["plastic_strain"] = [[p.material.alpha] for p in particles]
         for name in ("plane", "upper", "lower"):
             points = [(x[0] - X[0], x[1] - X[1]) for crack in cracks for x, X in zip(getattr(crack, name), crack.original)]
             if points:
@@ -62,6 +64,8 @@ def engine_frames(case, program, folder):
         points, fields = data["Points"], data["PointData"]
         frames.append({"position": next(iter(points.values()))[:, :2], "velocity": fields["velocity"][:, :2],
                        "displacement": fields["displacement"][:, :2], "stress": fields["stress"][:, :4]})
+        if "plastic_strain" in fields:
+            frames[-1]["plastic_strain"] = np.reshape(fields["plastic_strain"], (-1, 1))
     if case.get("cracks"):
         original = np.array([v for crack in case["cracks"] for v in crack["points"]], float)
         series = read_series(os.path.join(results, "cracks.pvd"))

@@ -70,8 +70,9 @@ def emit(case, folder):
         lines += table("[[symmetry]]", entries)
     for i, load in enumerate(case.get("loads", [])):
         lines += table("[[load]]", {"name": "load%d" % i, "kind": load["kind"], "region": rectangle(load), "value": formula(load["value"])})
+    plastic = ["plastic_strain"] if any(spec["law"] == "j2_plasticity" for spec in case["materials"].values()) else []
     lines += table("[output]", {"every_steps": 1, "full_precision": True,
-                                "quantities": ["velocity", "stress", "displacement"]})
+                                "quantities": ["velocity", "stress", "displacement"] + plastic})
     target = os.path.join(folder, case["name"] + ".toml")
     with open(target, "w") as stream:
         stream.write("\n".join(lines) + "\n")

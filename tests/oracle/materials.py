@@ -132,4 +132,110 @@ class NeoHookean(FiniteDeformation):
         return 0.5 * self.lam * math.log(J) ** 2 + self.G * (0.5 * (trace - 2) - math.log(J))
 
 
-LAWS = {"elastic_small_strain": SmallStrain, "elastic_large_rotation": LargeRotation, "neo_hookean": NeoHookean}
+def product(A, B):
+    return [[sum(A[i][k] * B[k][j] for k in range(2)) for j in range(2)] for i in range(2)]
+
+
+def inverse(A):
+    det = A[0][0] * A[1][1] - A[0][1] * A[1][0]
+    return [[A[1][1] / det, -A[0][1] / det], [-A[1][0] / det, A[0][0] / det]]
+
+
+def transposed(A):
+    return [[A[j][i] for j in range(2)] for i in range(2)]
+
+
+def principal(b):
+    """Eigenvalues and the angle of the first axis of a symmetric tensor."""
+    angle = 0.5 * math.atan2(2 * b[0][1], b[0][0] - b[1][1])
+    c, s = math.cos(angle), math.sin(angle)
+    along = c * c * b[0][0] + 2 * c * s * b[0][1] + s * s * b[1][1]
+    across = s * s * b[0][0] - 2 * c * s * b[0][1] + c * c * b[1][1]
+    return (along, across), angle
+
+
+def tensor(values, angle):
+    c, s = math.cos(angle), math.sin(angle)
+    xy = c * s * (values[0] - values[1])
+    return [[c * c * values[0] + s * s * values[1], xy], [xy, s * s * values[0] + c * c * values[1]]]
+
+
+class J2(FiniteDeformation):
+    """J2 plasticity, F = F_e F_p, with logarithmic elastic strains (docs/theory/materials.md): F_p is kept, and principal stresses t fulfil
+    e_trial = C^-1 t + flow dq/dt with q(t) = Y(alpha + flow), the flow by bisection."""
+
+    def __init__(self, spec, analysis):
+        super().__init__(spec, analysis)
+        self.E = spec["E"]
+        self.Y, self.H = spec["yield_stress"], spec.get("hardening_modulus", 0.0)
+        self.Fp_inverse = [[1.0, 0.0], [0.0, 1.0]]
+        self.thickness_plastic = 0.0  # logarithm of F_p zz
+        self.alpha = self.work = 0.0
+        self.tau = [[0.0, 0.0], [0.0, 0.0]]
+        self.tau_zz = 0.0
+
+    def stresses(self, e, g):
+        """Principal stresses of trial strains when the flow over q is g, and q."""
+        if self.plane_stress:
+            # (C^-1 + g P) t = e, P = [[1, -1/2], [-1/2, 1]]
+            a, b = 1 / self.E + g, -self.nu / self.E - g / 2
+            det = a * a - b * b
+            t = (a * e[0] - b * e[1]) / det, (a * e[1] - b * e[0]) / det, 0.0
+        else:
+            mean = sum(e) / 3
+            pressure = (3 * self.lam + 2 * self.G) * mean
+            t = tuple(pressure + 2 * self.G * (x - mean) / (1 + 3 * self.G * g) for x in e)
+        return t, math.sqrt(0.5 * ((t[0] - t[1]) ** 2 + (t[1] - t[2]) ** 2 + (t[2] - t[0]) ** 2))
+
+    def update(self, L, dt):
+        super().update(L, dt)
+        Fe = product(self.F, self.Fp_inverse)
+        values, angle = principal(product(Fe, transposed(Fe)))
+        e = [0.5 * math.log(v) for v in values] + [-self.thickness_plastic]  # zz: plane strain alone
+        g = 0.0
+        t, q = self.stresses(e, g)
+        yielding = q - self.Y - self.H * self.alpha
+        if yielding > 0:
+            low, high = 0.0, 2 * q / (self.G * self.Y)  # q falls as 1/(1 + g E/(2 (1 - nu))) at least
+            while self.stresses(e, high)[1] * (1 - self.H * high) > self.Y + self.H * self.alpha:
+                high *= 2
+            for _ in range(200):
+                g = 0.5 * (low + high)
+                if not low < g < high:
+                    break
+                t, q = self.stresses(e, g)
+                if q * (1 - self.H * g) > self.Y + self.H * self.alpha:
+                    low = g
+                else:
+                    high = g
+            flow = g * q
+            self.work += flow * (self.Y + self.H * (self.alpha + flow / 2))
+            self.alpha += flow
+            # dq/dt of each principal stress times the flow
+            plastic = [g * (1.5 * x - 0.5 * sum(t)) for x in t]
+            relax = tensor([math.exp(-plastic[0]), math.exp(-plastic[1])], angle)
+            self.Fp_inverse = product(inverse(self.F), product(relax, Fe))
+            self.thickness_plastic += plastic[2]
+        self.tau = tensor(t, angle)
+        self.tau_zz = t[2]
+
+    def volume_ratio(self):
+        J = self.area_ratio()
+        if self.plane_stress:
+            J *= math.exp(-self.nu / self.E * (self.tau[0][0] + self.tau[1][1]) + self.thickness_plastic)
+        return J
+
+    def force_stress(self):
+        return self.tau[0][0], self.tau[1][1], self.tau[0][1]
+
+    def stress(self):
+        J = self.volume_ratio()
+        return [self.tau[0][0] / J, self.tau[1][1] / J, self.tau_zz / J, self.tau[0][1] / J]
+
+    def energy_density(self):
+        xx, yy, xy = self.force_stress()
+        zz = self.tau_zz
+        return ((1 + self.nu) * (xx * xx + yy * yy + zz * zz + 2 * xy * xy) - self.nu * (xx + yy + zz) ** 2) / (2 * self.E)
+
+
+LAWS = {"j2_plasticity": J2, "elastic_small_strain": SmallStrain, "elastic_large_rotation": LargeRotation, "neo_hookean": NeoHookean}

@@ -133,6 +133,15 @@ def laws():
     xx, yy, _, xy = m.stress()
     lam, G = m.lam, m.G
     assert abs(xx * c * c + 2 * xy * s * c + yy * s * s - (lam + 2 * G) * 0.1) < 1e-11  # tau = R T U R^T, J = 1.1
+    steel = dict(spec, yield_stress=2.0, hardening_modulus=20.0)
+    for analysis in ("plane_strain", "plane_stress"):  # pure shear: q = sqrt(3) tau = 3 mu (2/sqrt(3) e - alpha)
+        m = LAWS["j2_plasticity"](steel, analysis)
+        e = 0.02
+        stretch = [math.sqrt(2 * math.exp(x) - 1) - 1 for x in (e, -e)]
+        m.update([[stretch[0], 0.0], [0.0, stretch[1]]], 1.0)
+        alpha = (3 * m.G * 2 / math.sqrt(3) * e - 2) / (3 * m.G + 20)
+        assert abs(m.alpha - alpha) < 1e-13 and abs(m.force_stress()[0] - (2 + 20 * alpha) / math.sqrt(3)) < 1e-11
+        assert abs(m.volume_ratio() - 1) < 1e-13
     for law, analysis in (("neo_hookean", "plane_strain"), ("elastic_large_rotation", "plane_strain"), ("elastic_large_rotation", "plane_stress")):
         m = LAWS[law](spec, analysis)
         F = [[1.2, 0.3], [-0.1, 0.9]]

@@ -14,12 +14,10 @@
 #include "crampon/material/elastic_small_strain.hpp"
 #include "crampon/material/material.hpp"
 #include "crampon/material/neo_hookean.hpp"
+#include "unit/material_points.hpp"
 
 namespace crampon::test {
 namespace {
-
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 constexpr double E = 1000, nu = 0.3, density = 2;  // validation row 51
 constexpr double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
@@ -38,13 +36,6 @@ MaterialSpec law_of(Kind kind) {
   }
   throw std::logic_error("no such law");
 }
-
-/// What is stored on a particle and reported of it.
-struct Answer {
-  Matrix3d stress = Matrix3d::Zero();  ///< as stored: Kirchhoff (small strain: of Eq. 35)
-  Matrix3d cauchy = Matrix3d::Zero();
-  double energy = 0, volume_ratio = 1;
-};
 
 /// One material point in the plainest words.
 class Oracle {
@@ -116,95 +107,6 @@ class Oracle {
   StressState state_;
   Matrix3d strain_ = Matrix3d::Zero(), F_ = Matrix3d::Identity();
 };
-
-/// Particles of the engine: `packs` packs of four, with room between their histories as in a run of mixed materials.
-class Points {
- public:
-  Points(MaterialSpec law, StressState state, int packs = 1) : law_(std::move(law)), state_(state), packs_(packs) {
-    dimension_ = state == StressState::three_dimensional ? 3 : 2;
-    stress_size_ = dimension_ == 2 ? stress_size<2> : stress_size<3>;
-    stride_ = law_->history_size(dimension_) + 1;
-    stress_.resize(static_cast<std::size_t>(packs_ * stress_size_));
-    history_.resize(static_cast<std::size_t>(packs_ * stride_), splat(guard));
-    for (int q = 0; q < packs_; ++q) law_->initialise(dimension_, stress(q), history(q));
-  }
-
-  int size() const { return packs_ * lanes; }
-  Pack* stress(int pack) { return &stress_[static_cast<std::size_t>(pack * stress_size_)]; }
-  Pack* history(int pack) { return &history_[static_cast<std::size_t>(pack * stride_)]; }
-
-  bool update(const std::function<Matrix3d(int)>& L, double dt) {
-    std::vector<Pack> packed(static_cast<std::size_t>(packs_ * dimension_ * dimension_));
-    for (int p = 0; p < size(); ++p) {
-      const Matrix3d of_point = L(p);
-      for (int d = 0; d < dimension_; ++d) {
-        for (int k = 0; k < dimension_; ++k) {
-          packed[static_cast<std::size_t>((p / lanes * dimension_ + d) * dimension_ + k)][p % lanes] = of_point(d, k);
-        }
-      }
-    }
-    bool good = false;
-    if (dimension_ == 2) {
-      good = law_->update(state_, StressBatch<2>{packs_, dt, packed.data(), stress_.data(), history_.data(), stride_});
-    } else {
-      good = law_->update(state_, StressBatch<3>{packs_, dt, packed.data(), stress_.data(), history_.data(), stride_});
-    }
-    for (int q = 0; q < packs_; ++q) EXPECT_EQ(history(q)[stride_ - 1][0], guard) << "wrote beyond its history";
-    return good;
-  }
-
-  Answer answer(int p) {
-    const int l = p % lanes, q = p / lanes;
-    const PackReport report = law_->report(state_, dimension_, stress(q), history(q));
-    Answer a;
-    const Pack* s = stress(q);
-    a.stress(0, 0) = s[0][l];
-    a.stress(1, 1) = s[1][l];
-    if (dimension_ == 2) {
-      a.stress(0, 1) = a.stress(1, 0) = s[2][l];
-      a.stress(2, 2) = s[3][l];
-    } else {
-      a.stress(2, 2) = s[2][l];
-      a.stress(0, 1) = a.stress(1, 0) = s[3][l];
-      a.stress(1, 2) = a.stress(2, 1) = s[4][l];
-      a.stress(0, 2) = a.stress(2, 0) = s[5][l];
-    }
-    a.cauchy = a.stress * report.to_cauchy[l];
-    a.energy = report.energy[l];
-    a.volume_ratio = report.volume_ratio[l];
-    return a;
-  }
-  double wave_speed(int p) { return law_->wave_speed(state_, dimension_, stress(p / lanes), history(p / lanes))[p % lanes]; }
-
- private:
-  static constexpr double guard = 12345;
-  MaterialSpec law_;
-  StressState state_;
-  int packs_, dimension_, stress_size_, stride_;
-  std::vector<Pack> stress_, history_;
-};
-
-class Random {
- public:
-  double draw(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Matrix3d gradient(StressState state, double size) {
-    Matrix3d L = Matrix3d::Zero();
-    const int n = state == StressState::three_dimensional ? 3 : 2;
-    for (int d = 0; d < n; ++d) {
-      for (int k = 0; k < n; ++k) L(d, k) = draw(-size, size);
-    }
-    return L;
-  }
-
- private:
-  std::mt19937_64 engine_{51};
-};
-
-/// Velocity gradient that multiplies F by diag(f) in one step of 1 s: 1 + x + x^2/2 = f.
-Matrix3d stretching(double x, double y, double z) {
-  const auto rate = [](double f) { return std::sqrt(2 * f - 1) - 1; };
-  return Vector3d(rate(x), rate(y), rate(z)).asDiagonal();
-}
 
 class Law : public testing::TestWithParam<std::tuple<Kind, StressState>> {
  protected:

@@ -83,7 +83,7 @@ TEST(Members, OneThatIsNotStatedIsFound) {
     return failures.size();
   };
   EXPECT_EQ(found(Forgetful{}), 1);
-  EXPECT_EQ(found(Clock{}), 0);
+  EXPECT_EQ(found(RunClock{}), 0);
 }
 
 /// A state with something in every member.

@@ -84,6 +84,7 @@ inline Pack lane_sqrt(Pack a) {
 #endif
 }
 
+inline Pack lane_exp(Pack a) { return Pack{std::exp(a[0]), std::exp(a[1]), std::exp(a[2]), std::exp(a[3])}; }
 inline Pack lane_log(Pack a) { return Pack{std::log(a[0]), std::log(a[1]), std::log(a[2]), std::log(a[3])}; }
 
 /// Rows become columns: afterwards row l holds what lane l of each row was.

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "crampon/core/declaration.hpp"
 #include "crampon/material/deformation.hpp"
 #include "crampon/material/elastic_constants.hpp"
@@ -16,10 +18,14 @@ struct ElasticLargeRotation {
 
   static constexpr const char* name = "elastic_large_rotation";
   static const Declaration<ElasticLargeRotation>& declaration();
+  /// Steel.
+  static ElasticLargeRotation example() { return {210e9, 0.3, 7850}; }
   static constexpr bool wave_speed_changes = true;
   static constexpr bool starts_with_deformation_gradient = true;
   template <int Dim>
   static constexpr int history_size = deformation_size<Dim>;
+  template <int Dim>
+  static constexpr std::array<LawVariable, 0> variables{};
 
   double wave_speed(StressState s) const { return ElasticConstants(E, nu).wave_speed(s, density); }
   template <int Dim>

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "crampon/core/declaration.hpp"
 #include "crampon/material/elastic_constants.hpp"
 
@@ -13,9 +15,14 @@ struct ElasticSmallStrain {
 
   static constexpr const char* name = "elastic_small_strain";
   static const Declaration<ElasticSmallStrain>& declaration();
+  /// Steel.
+  static ElasticSmallStrain example() { return {210e9, 0.3, 7850}; }
   static constexpr bool wave_speed_changes = false;
+  static constexpr bool starts_with_deformation_gradient = false;
   template <int Dim>
   static constexpr int history_size = Dim == 2 ? 4 : 6;  ///< strain: {xx, yy, xy (tensor), zz} or {xx, yy, zz, xy, yz, xz}
+  template <int Dim>
+  static constexpr std::array<LawVariable, 0> variables{};
 
   double wave_speed(StressState s) const { return ElasticConstants(E, nu).wave_speed(s, density); }
   template <int Dim>

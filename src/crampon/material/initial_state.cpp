@@ -39,7 +39,7 @@ class StateSearch {
     strain.fill(splat(0.));
     for (int iteration = 0; iteration < 30; ++iteration) {
       if (!strained(strain, missing)) return false;
-      if (small(missing)) return true;
+      if (small(missing)) return is_elastic();
       double largest_change = 0;
       std::array<Strain, size> columns;
       for (int c = 0; c < size; ++c) {
@@ -60,7 +60,7 @@ class StateSearch {
         largest_change = std::fmax(largest_change, change.cwiseAbs().maxCoeff());
       }
       // Laws that hold 1 + strain know no smaller change.
-      if (largest_change < 4e-16) return strained(strain, missing);
+      if (largest_change < 4e-16) return strained(strain, missing) && is_elastic();
     }
     return false;
   }
@@ -85,6 +85,11 @@ class StateSearch {
     const Pack to_cauchy = law_.report(state_, Dim, stress_, history_).to_cauchy;
     for (std::size_t c = 0; c < size; ++c) missing[c] = cauchy_[c] - stress_[components<Dim>()[c].stored] * to_cauchy;
     return true;
+  }
+  /// A body that has flowed to bear its stress did so on a way that nobody has told.
+  bool is_elastic() const {
+    const LawVariable* dissipated = law_.dissipated(Dim);
+    return !dissipated || !any_positive(history_[dissipated->at]);
   }
   bool small(const Strain& missing) const {
     for (int l = 0; l < lanes; ++l) {

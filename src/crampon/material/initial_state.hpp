@@ -13,7 +13,7 @@ inline constexpr int chosen_stress_size = Dim == 2 ? 3 : 6;
 /// their stress and history to it. Energies, volumes and strains then start from that state.
 ///   cauchy:  [chosen_stress_size<Dim>] Cauchy stress, Pa
 ///   stress:  [stress_size<Dim>], history: [law.history_size(Dim)]
-/// False where the law has no such state.
+/// False where the law has no such state, or only one that took plastic flow.
 template <int Dim>
 bool find_initial_state(const MaterialLaw& law, StressState, const Pack* cauchy, Pack* stress, Pack* history);
 

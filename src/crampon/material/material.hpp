@@ -3,6 +3,7 @@
 /// A law itself is a plain struct in its own file (material/neo_hookean.hpp). LawKernel in material_law.hpp wraps it; registry.cpp lists it.
 
 #include <memory>
+#include <vector>
 
 #include "crampon/core/declaration.hpp"
 #include "crampon/material/material_law.hpp"
@@ -15,9 +16,18 @@ using MaterialSpec = std::shared_ptr<const MaterialLaw>;
 /// The family as the input sees it: `law = "neo_hookean"` and the law's own keys.
 Family<MaterialSpec>& materials();
 
+/// Every law of the family once, with the parameters of its example: for what goes through all laws.
+std::vector<MaterialSpec> material_examples();
+
+namespace detail {
+std::vector<MaterialSpec>& examples_of_materials();
+}
+
 /// The one line by which a law joins the family.
 template <class Law>
 void add_material(Family<MaterialSpec>& family) {
+  static_assert(MaterialLawContract<Law>::complete);
+  detail::examples_of_materials().push_back(std::make_shared<LawKernel<Law>>(Law::example()));
   family.add<Law>(Law::declaration(), [](Law law) -> MaterialSpec { return std::make_shared<LawKernel<Law>>(law); });
 }
 

@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "crampon/core/pack.hpp"
+#include "crampon/material/law_contract.hpp"
+#include "crampon/material/law_variable.hpp"
+#include "crampon/material/stress_state.hpp"
 #include "crampon/state/particles.hpp"
 
 namespace crampon {
-
-/// Stress state of the model: 2D is plane strain or plane stress.
-enum class StressState { plane_strain, plane_stress, three_dimensional };
 
 /// Some consecutive packs of one material. L: velocity gradient L[d * Dim + k] = dv_d/dx_k, 1/s, Dim * Dim Packs per pack.
 template <int Dim>
@@ -23,15 +25,6 @@ struct StressBatch {
   Pack* stress = nullptr;   ///< [pack][stress_size]
   Pack* history = nullptr;  ///< [pack][history stride]
   int history_stride = 0;
-};
-
-/// Quantities of one pack derived from its stress and history.
-struct PackReport {
-  Pack energy;        ///< strain energy per initial volume, J/m3
-  Pack volume_ratio;  ///< V/V0
-  Pack area_ratio;    ///< A/A0 in the plane (2D); the volume ratio in 3D
-  Pack to_cauchy;     ///< stored stress times this is the Cauchy stress
-  Pack strain[6];     ///< xx, yy, zz, xy, yz, xz of the law's own strain measure
 };
 
 class MaterialLaw {
@@ -46,7 +39,24 @@ class MaterialLaw {
   virtual Pack wave_speed(StressState, int dimension, const Pack* stress, const Pack* history) const = 0;
 
   /// Does it follow the deformation gradient, rather than add up small strains?
-  virtual bool follows_deformation() const { return false; }
+  virtual bool follows_deformation() const = 0;
+
+  /// What the law keeps beside stress and deformation, with its place in the history.
+  virtual std::span<const LawVariable> variables(int dimension) const = 0;
+  /// Null where the law has no such variable.
+  const LawVariable* find_variable(int dimension, std::string_view name) const {
+    for (const LawVariable& v : variables(dimension)) {
+      if (v.name == name) return &v;
+    }
+    return nullptr;
+  }
+  /// The energy that the law has taken, where it declares one: null for a law that gives back all work done on it.
+  const LawVariable* dissipated(int dimension) const {
+    for (const LawVariable& v : variables(dimension)) {
+      if (v.kind == LawVariable::Kind::dissipated) return &v;
+    }
+    return nullptr;
+  }
 
   virtual void initialise(int dimension, Pack* stress, Pack* history) const = 0;
   /// Advances stress and history. False when a particle turned inside out (volume ratio <= 0) or its numbers went bad.
@@ -57,18 +67,14 @@ class MaterialLaw {
   virtual void deformation(StressState, int dimension, const Pack* stress, const Pack* history, Pack* F) const = 0;
 };
 
+inline bool any_positive(Pack a) { return a[0] > 0 || a[1] > 0 || a[2] > 0 || a[3] > 0; }
 inline bool all_positive(Pack a) { return a[0] > 0 && a[1] > 0 && a[2] > 0 && a[3] > 0; }
 
-/// Makes a law of a plain struct. The struct provides
-///   density(), wave_speed(StressState); static constexpr bool wave_speed_changes;
-///   template <int Dim> static constexpr int history_size;
-///   template <int Dim> static void initialise(Pack* history);
-///   template <int Dim, StressState> Pack update(const Pack* L, double dt, Pack* stress, Pack* history) const  -> V/V0
-///   template <int Dim, StressState> PackReport report(const Pack* stress, const Pack* history) const
-///   static constexpr bool starts_with_deformation_gradient = true;                       (only if its history does)
-///   template <int Dim, StressState> Pack present_wave_speed(stress, history) const      (only if wave_speed_changes).
+/// Makes a law of a plain struct; MaterialLawContract says what the struct provides.
 template <class Law>
 class LawKernel final : public MaterialLaw {
+  static_assert(MaterialLawContract<Law>::complete);
+
  public:
   explicit LawKernel(const Law& law) : law_(law) {}
   std::string name() const override { return Law::name; }
@@ -84,8 +90,10 @@ class LawKernel final : public MaterialLaw {
       return splat(law_.wave_speed(s));
     }
   }
-  bool follows_deformation() const override {
-    return requires { Law::starts_with_deformation_gradient; };
+  bool follows_deformation() const override { return Law::starts_with_deformation_gradient; }
+  std::span<const LawVariable> variables(int dimension) const override {
+    return dimension == 2 ? std::span<const LawVariable>(Law::template variables<2>)
+                          : std::span<const LawVariable>(Law::template variables<3>);
   }
   void initialise(int dimension, Pack* stress, Pack* history) const override {
     for (int c = 0; c < (dimension == 2 ? stress_size<2> : stress_size<3>); ++c) stress[c] = splat(0.);
@@ -99,7 +107,7 @@ class LawKernel final : public MaterialLaw {
     return dispatch(s, dimension, [&]<int Dim, StressState S>() { return law_.template report<Dim, S>(stress, history); });
   }
   void deformation(StressState s, int dimension, const Pack* stress, const Pack* history, Pack* F) const override {
-    if constexpr (requires { Law::starts_with_deformation_gradient; }) {
+    if constexpr (Law::starts_with_deformation_gradient) {
       std::copy_n(history, dimension * dimension, F);
     } else {
       static constexpr int at[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "crampon/core/declaration.hpp"
 #include "crampon/material/deformation.hpp"
 #include "crampon/material/elastic_constants.hpp"
@@ -14,10 +16,14 @@ struct NeoHookean {
 
   static constexpr const char* name = "neo_hookean";
   static const Declaration<NeoHookean>& declaration();
+  /// Rubber.
+  static NeoHookean example() { return {1e6, 0.45, 1000}; }
   static constexpr bool wave_speed_changes = true;
   static constexpr bool starts_with_deformation_gradient = true;
   template <int Dim>
   static constexpr int history_size = deformation_size<Dim>;
+  template <int Dim>
+  static constexpr std::array<LawVariable, 0> variables{};
 
   double wave_speed(StressState s) const { return ElasticConstants(E, nu).wave_speed(s, density); }
   template <int Dim>

@@ -2,6 +2,7 @@
 
 #include "crampon/material/elastic_large_rotation.hpp"
 #include "crampon/material/elastic_small_strain.hpp"
+#include "crampon/material/j2_plasticity.hpp"
 #include "crampon/material/material.hpp"
 #include "crampon/material/neo_hookean.hpp"
 
@@ -38,6 +39,30 @@ const Declaration<NeoHookean>& NeoHookean::declaration() {
   return d;
 }
 
+const Declaration<J2Plasticity>& J2Plasticity::declaration() {
+  static const auto d = isotropic<J2Plasticity>(
+                            "Plasticity of von Mises (J2) with linear isotropic hardening, for any stretch and rotation: F = F_e F_p, "
+                            "Hooke's law between elastic "
+                            "logarithmic strain and Kirchhoff stress.")
+                            .quantity("yield_stress", &J2Plasticity::yield_stress, "Pa", Bounds::positive(),
+                                      "stress of first yield in uniaxial tension, Kirchhoff stress", Presence::required)
+                            .quantity("hardening_modulus", &J2Plasticity::hardening_modulus, "Pa", Bounds::non_negative(),
+                                      "rise of the yield stress per equivalent plastic strain; 0: perfectly plastic");
+  return d;
+}
+
+namespace detail {
+std::vector<MaterialSpec>& examples_of_materials() {
+  static std::vector<MaterialSpec> all;
+  return all;
+}
+}  // namespace detail
+
+std::vector<MaterialSpec> material_examples() {
+  materials();  // laws join as the family is made
+  return detail::examples_of_materials();
+}
+
 // A further law is one file like neo_hookean.hpp and one line here.
 Family<MaterialSpec>& materials() {
   static Family<MaterialSpec> family = [] {
@@ -45,6 +70,7 @@ Family<MaterialSpec>& materials() {
     add_material<ElasticSmallStrain>(f);
     add_material<ElasticLargeRotation>(f);
     add_material<NeoHookean>(f);
+    add_material<J2Plasticity>(f);
     return f;
   }();
   return family;

@@ -13,6 +13,8 @@ class RigidMaterial final : public MaterialLaw {
   double wave_speed(StressState) const override { return 0; }
   int history_size(int) const override { return 0; }
   bool wave_speed_changes() const override { return false; }
+  bool follows_deformation() const override { return false; }
+  std::span<const LawVariable> variables(int) const override { return {}; }
   Pack wave_speed(StressState, int, const Pack*, const Pack*) const override { return splat(0.); }
   void initialise(int dimension, Pack* stress, Pack*) const override {
     for (int c = 0; c < (dimension == 2 ? stress_size<2> : stress_size<3>); ++c) stress[c] = splat(0.);

@@ -183,7 +183,7 @@ Colour PictureMap::colour(double value) const {
 
 PictureMap draw_panel(const std::vector<Snapshot>& snapshots, const DrawOptions& options, const std::filesystem::path& path) {
   if (snapshots.empty()) throw std::invalid_argument("there is nothing to draw: no snapshot");
-  Quantity quantity;
+  PointValues quantity;
   std::vector<Scene> scenes;
   for (const Snapshot& snapshot : snapshots) scenes.push_back(make_scene(snapshot, options, quantity));
   PictureExtent extent;

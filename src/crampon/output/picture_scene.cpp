@@ -54,7 +54,7 @@ double middle_height(const std::vector<double>& heights) {
 
 }  // namespace
 
-Scene make_scene(const Snapshot& snapshot, const DrawOptions& options, Quantity& quantity) {
+Scene make_scene(const Snapshot& snapshot, const DrawOptions& options, PointValues& quantity) {
   const PointFrame& frame = *snapshot.particles;
   Scene scene;
   scene.shapes = particle_shapes(frame, options.magnification);
@@ -113,7 +113,7 @@ void PictureExtent::include(const PictureExtent& other) {
 }
 
 PictureExtent picture_extent(const Snapshot& snapshot, const DrawOptions& options) {
-  Quantity quantity;
+  PointValues quantity;
   return extent_of(make_scene(snapshot, options, quantity));
 }
 

@@ -35,7 +35,7 @@ struct Scene {
 };
 
 /// The snapshot must outlive the scene. quantity: what `values` are, without its values. Throws std::invalid_argument (see draw_frame).
-Scene make_scene(const Snapshot& snapshot, const DrawOptions& options, Quantity& quantity);
+Scene make_scene(const Snapshot& snapshot, const DrawOptions& options, PointValues& quantity);
 PictureExtent extent_of(const Scene& scene);
 
 /// The categories that a quantity's numbers stand for.

@@ -10,13 +10,13 @@
 #include <fmt/format.h>
 
 #include "crampon/core/closest_name.hpp"
+#include "crampon/output/stress_measures.hpp"
 
 namespace crampon {
 namespace {
 
 constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 constexpr std::array<std::string_view, 6> tensor_parts{"xx", "yy", "zz", "xy", "yz", "xz"};
-constexpr std::array<std::string_view, 3> derived{"pressure", "von_mises", "fringes"};
 
 const Field* find_field(const PointFrame& frame, std::string_view name) {
   for (const Field& field : frame.fields)
@@ -51,17 +51,9 @@ std::optional<std::size_t> component_index(const Field& field, std::string_view 
   return std::nullopt;
 }
 
-double von_mises(const double* s) {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
-}
-
-// N03 Eq. 23; stress in Pa, k_f in 1/MPa.
-double fringe(const double* s, double k_f) { return std::cos(k_f * 1e-6 * std::hypot(s[0] - s[1], 2 * s[3])); }
-
 }  // namespace
 
-Quantity evaluate_quantity(const PointFrame& frame, const std::string& name, double fringe_constant) {
+PointValues evaluate_quantity(const PointFrame& frame, const std::string& name, double fringe_constant) {
   if (const Field* field = find_field(frame, name)) {
     if (field->components == 1) return {name, field->unit, field->values.doubles()};
     if (field->components == 3) return {name, field->unit, magnitude(*field)};
@@ -77,12 +69,10 @@ Quantity evaluate_quantity(const PointFrame& frame, const std::string& name, dou
     }
   }
   const Field* stress = find_field(frame, "stress");
-  if (std::find(derived.begin(), derived.end(), name) != derived.end()) {
+  if (const StressMeasure* measure = find_stress_measure(name)) {
     if (!stress || stress->components != 6)
       throw std::invalid_argument(fmt::format("\"{}\" needs the field \"stress\", which these results do not hold", name));
-    if (name == "pressure") return {name, stress->unit, per_point(*stress, [](const double* s) { return -(s[0] + s[1] + s[2]) / 3; })};
-    if (name == "von_mises") return {name, stress->unit, per_point(*stress, von_mises)};
-    return {name, "", per_point(*stress, [&](const double* s) { return fringe(s, fringe_constant); })};
+    return {name, std::string(measure->unit), per_point(*stress, [&](const double* s) { return measure->of(s, fringe_constant); })};
   }
   throw std::invalid_argument(fmt::format("no quantity \"{}\"; {}", name, suggest_from(name, quantity_names(frame))));
 }
@@ -104,7 +94,7 @@ std::vector<std::string> quantity_names(const PointFrame& frame) {
       for (const std::string_view part : tensor_parts) names.push_back(fmt::format("{}_{}", field.name, part));
   }
   if (const Field* stress = find_field(frame, "stress"); stress && stress->components == 6)
-    for (const std::string_view name : derived) names.emplace_back(name);
+    for (const StressMeasure& measure : stress_measures()) names.emplace_back(measure.name);
   return names;
 }
 

@@ -9,7 +9,7 @@
 namespace crampon {
 
 /// One number per point.
-struct Quantity {
+struct PointValues {
   std::string name;
   std::string unit;
   std::vector<double> values;
@@ -19,10 +19,9 @@ struct Quantity {
 inline constexpr double paper_fringe_constant = 0.0889;
 
 /// Understands: the name of a scalar field; "velocity" and "velocity_magnitude" (length of a vector); "velocity_x"; "stress_xx";
-/// from the field "stress": "pressure" (minus the mean of xx, yy, zz), "von_mises" and "fringes", N03 Eq. 23,
-/// cos(k_f sqrt((sxx - syy)^2 + 4 sxy^2)) with k_f in 1/MPa. A field of that name wins over a derived quantity.
+/// from the field "stress" what stress_measures.hpp lists, fringe_constant in 1/MPa. A field of that name wins over a derived quantity.
 /// Throws std::invalid_argument with the most similar name.
-Quantity evaluate_quantity(const PointFrame& frame, const std::string& name, double fringe_constant = paper_fringe_constant);
+PointValues evaluate_quantity(const PointFrame& frame, const std::string& name, double fringe_constant = paper_fringe_constant);
 
 /// Are its numbers names of things, as those of bodies and materials are?
 bool is_category(const PointFrame& frame, const std::string& name);

@@ -119,7 +119,7 @@ Measured measure_particles(Results& results, const ExpectInput& expect) {
     return std::abs(a.time - wanted) < std::abs(b.time - wanted);
   });
   const PointFrame& frame = results.particles(*nearest);
-  const Quantity all = evaluate_quantity(frame, *expect.quantity);
+  const PointValues all = evaluate_quantity(frame, *expect.quantity);
   if (all.values.empty()) throw std::invalid_argument("the frame holds no particles");
   return {all.values[nearest_particle(frame, expect.point)], all.unit};
 }

@@ -1,38 +1,35 @@
 #pragma once
 /// Rows of history.csv and events.csv from the engine's state (docs/reference/output.md).
 
-#include <cstdint>
-#include <string>
+#include <memory>
 #include <vector>
 
 #include "crampon/input/problem.hpp"
 #include "crampon/output/history.hpp"
+#include "crampon/run/observers/registry.hpp"
 #include "crampon/step/model.hpp"
 #include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
-/// Sums, reactions, openings and probes of a state at the present time. It looks at the state and the model that it was made with.
+/// What all observers see of a state at the present time (observers/observer.hpp). It looks at the state and the model that it was made with.
 template <int Dim>
 class HistorySampler {
  public:
   HistorySampler(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model) : state_(state), work_(work), model_(model) {}
 
-  /// With the state as it is at the start of the run: fills Observed with the energy that the balance begins with, and the particles that probes
-  /// follow. Throws InputError for probes of quantities that do not exist.
+  /// With the state as it is at the start of the run; observed: of that state, where observers keep what their columns go back to. Throws
+  /// InputError for probes of quantities that do not exist.
   void start(const Problem& problem, Observed& observed);
 
   std::vector<HistoryColumn> columns() const;
   std::vector<double> row() const;  ///< SI, one value per column; the first is the time
 
  private:
-  struct Probe {
-    std::string name, quantity;
-  };
   const State<Dim>& state_;
   const StepWork<Dim>& work_;
   const Model<Dim>& model_;
-  std::vector<Probe> probes_;  ///< of the particles Observed::probes
+  std::vector<std::unique_ptr<Observer<Dim>>> observers_ = make_observers<Dim>();
 };
 
 /// Columns and row of a failure, for events.csv, SI.

@@ -7,6 +7,7 @@
 
 #include "crampon/material/initial_state.hpp"
 #include "crampon/run/build_bodies.hpp"
+#include "crampon/step/particle_view.hpp"
 
 namespace crampon {
 
@@ -81,7 +82,7 @@ void bear_initial_stress(const Problem& problem, const Model<Dim>& model, State<
       Pack* stress = &particles.stress[k * stress_size<Dim>];
       if (find_initial_state<Dim>(law, model.stress_state, cauchy.data(), stress, history)) {
         // Forces are those of the stored stress on the volume at no stress: together those of the Cauchy stress on the volume now.
-        particles.mass_volume[2 * k + 1] *= law.report(model.stress_state, Dim, stress, history).to_cauchy;
+        particles.mass_volume[2 * k + 1] *= PackView<Dim>(state, model, run.material, k).report().to_cauchy;
       } else if (!told[bearing]) {
         told[bearing] = true;
         const BodyInput& body = problem.bodies[bearing];

@@ -9,6 +9,7 @@
 
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/contact_cloud.hpp"
+#include "crampon/step/particle_view.hpp"
 
 namespace crampon {
 
@@ -26,9 +27,7 @@ Stretched most_stretched(const State<Dim>& state, const Model<Dim>& model, const
   Stretched most;
   for (std::size_t pack = run.first_pack; pack < run.end_pack; ++pack) {
     Pack F_pack[Dim * Dim];
-    model.materials[run.material].law->deformation(model.stress_state, Dim, &particles.stress[pack * stress_size<Dim>],
-                                                   particles.history.data() + pack * static_cast<std::size_t>(particles.history_size),
-                                                   F_pack);
+    PackView<Dim>(state, model, run.material, pack).deformation(F_pack);
     for (int l = 0; l < lanes; ++l) {
       const std::size_t p = pack * lanes + static_cast<std::size_t>(l);
       if (particles.is_padding(p)) continue;

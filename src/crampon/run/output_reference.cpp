@@ -2,46 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "crampon/run/sample.hpp"
+#include "crampon/material/material.hpp"
+#include "crampon/output/stress_measures.hpp"
+#include "crampon/run/observers/registry.hpp"
+#include "crampon/run/quantities.hpp"
 
 namespace crampon {
 
 const std::vector<ColumnDescription>& describe_history_columns() {
-  static const std::vector<ColumnDescription> all = {
-      {"time", "s", "time of the row", "t"},
-      {"kinetic_energy", "J", "of all particles that are not rigid", "sum of m v.v / 2"},
-      {"strain_energy", "J", "in the material", "sum of V_0 W"},
-      {"total_energy", "J", "kinetic and strain energy", "kinetic_energy + strain_energy"},
-      {"load_work", "J", "work of loads since the start, and of pressure in cracks", "sum over steps of f.dx"},
-      {"body_force_work", "J", "work of the body force since the start", "sum over steps of m b.dx"},
-      {"boundary_work", "J", "work of boundaries, rigid bodies and walls on the material since the start",
-       "sum over steps of reaction times way"},
-      {"damping_loss", "J", "taken by damping since the start", ""},
-      {"transfer_loss", "J", "taken by what particles take over from nodes (method.transfer) since the start", ""},
-      {"contact_loss", "J", "lost as contact begins, and what the tasks of a step do not agree on, since the start", ""},
-      {"friction_loss", "J", "lost to friction since the start", "sum over steps of tangential impulse times mean slip speed"},
-      {"interface_energy", "J", "in the springs of interfaces now", ""},
-      {"cohesive_energy", "J", "that traction laws of cracks would give back now", ""},
-      {"cohesive_loss_I", "J", "spent by traction laws in opening since the start", ""},
-      {"cohesive_loss_II", "J", "spent by traction laws in sliding since the start", ""},
-      {"energy_closure", "J", "what the balance leaves open: an error of the computation",
-       "total + interface + cohesive energy + all losses - all work - total energy at the start"},
-      {"momentum_AXIS", "kg m/s", "of all particles that are not rigid", "sum of m v"},
-      {"angular_momentum_z", "kg m2/s", "about the origin of coordinates", "sum of m (x v_y - y v_x)"},
-      {"left_mass", "kg", "that has left the grid (method.leaving_particle = \"remove\")", ""},
-      {"left_energy", "J", "kinetic and strain energy that left with it", ""},
-      {"left_momentum_AXIS", "kg m/s", "momentum that left with it", ""},
-      {"left_angular_momentum_z", "kg m2/s", "angular momentum that left with it", ""},
-      {"load_AXIS.NAME", "N", "resultant of a load at the time of the row", ""},
-      {"reaction_AXIS.NAME", "N", "force of a boundary, symmetry plane, rigid body or wall on the material, in the last step", ""},
-      {"torque_AXIS.NAME", "N m", "moment of a rigid body or wall on the material about its centre, in the last step", ""},
-      {"opening_min.NAME", "m", "smallest opening of a crack, between its tips", "(x_upper - x_lower) along the normal of the crack"},
-      {"opening_max.NAME", "m", "largest opening of a crack, between its tips", "(x_upper - x_lower) along the normal of the crack"},
-      {"sliding_max.NAME", "m", "largest sliding of a crack in either sense, between its tips",
-       "size of (x_upper - x_lower) along the crack"},
-      {"PROBE.QUANTITY", "", "a quantity of the particle that a [[probe]] watches; nan once it has left the grid",
-       "components as PROBE.velocity_x, PROBE.stress_xy"},
-  };
+  static const std::vector<ColumnDescription> all = describe_observers();
   return all;
 }
 
@@ -65,13 +34,34 @@ std::string code(const std::string& text) { return text.empty() ? "" : "`" + tex
 
 std::string components_text(int components) { return components == 3 ? "x, y, z" : components == 6 ? "xx, yy, zz, xy, yz, xz" : ""; }
 
+/// Of each variable that laws declare, with the laws that do.
+std::string law_variables_table() {
+  std::vector<const MaterialLaw*> laws;
+  const std::vector<MaterialSpec> examples = material_examples();
+  for (const MaterialSpec& law : examples) laws.push_back(law.get());
+  std::string out = "| quantity | unit | components | by default | laws | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
+  for (const ParticleQuantity& q : quantities_of_laws(laws)) {
+    std::string of;
+    for (const MaterialLaw* law : laws) {
+      if (law->find_variable(2, q.name)) of += (of.empty() ? "" : ", ") + code(law->name());
+    }
+    out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(q.name), q.unit, components_text(q.components), q.common ? "yes" : "", of,
+                       q.help);
+  }
+  return out;
+}
+
 }  // namespace
 
 const ColumnDescription* find_description(const std::string& column) {
+  const ColumnDescription* of_probes = nullptr;
   for (const ColumnDescription& each : describe_history_columns()) {
-    if (each.pattern != "PROBE.QUANTITY" && follows(column, each.pattern)) return &each;
+    if (each.pattern == "PROBE.QUANTITY")
+      of_probes = &each;
+    else if (follows(column, each.pattern))
+      return &each;
   }
-  return column.find('.') != std::string::npos ? &describe_history_columns().back() : nullptr;
+  return column.find('.') != std::string::npos ? of_probes : nullptr;
 }
 
 std::string output_reference_page() {
@@ -86,13 +76,18 @@ std::string output_reference_page() {
       "at X "
       "is at `rigid_centre + rigid_turn (X - rigid_start)`.\n\n"
       "| quantity | unit | components | by default | meaning | formula |\n| --- | --- | --- | --- | --- | --- |\n";
-  for (const QuantityDescription& q : describe_particle_quantities())
+  for (const ParticleQuantity& q : general_quantities())
     out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(q.name), q.unit, components_text(q.components), q.common ? "yes" : "",
-                       q.meaning, code(q.formula));
+                       q.help, code(q.formula));
+  out += "\nVariables of material laws are quantities too where a body is made of such a law. Particles of other laws hold nan.\n\n" +
+         law_variables_table();
   out +=
       "\nPictures, probes and `[[expect]]` take a component as `stress_xy` or `velocity_x`; a vector's name alone is its magnitude. "
-      "`pressure`, `von_mises` and `fringes` (photoelastic, N03 Eq. 23: `cos(k_f sqrt((sigma_xx - sigma_yy)^2 + 4 sigma_xy^2))`) are found "
-      "from `stress` when they were not written.\n\n"
+      "What "
+      "can be found from `stress` is found when it was not written:\n\n| name | meaning | formula |\n| --- | --- | --- |\n";
+  for (const StressMeasure& m : stress_measures()) out += fmt::format("| `{}` | {} | `{}` |\n", m.name, m.help, m.formula);
+  out +=
+      "\n"
       "## Columns of history.csv\n\n"
       "The header holds names with units, as `kinetic_energy[J]`. `AXIS` is x, y or z; `NAME` is what the input calls the thing.\n\n"
       "| column | unit | meaning | formula |\n| --- | --- | --- | --- |\n";

@@ -4,14 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "crampon/run/observers/column.hpp"
+
 namespace crampon {
 
-/// A column of history.csv, or several that differ in a name or an axis.
-struct ColumnDescription {
-  std::string pattern;  ///< "kinetic_energy", "reaction_AXIS.NAME"; "PROBE.QUANTITY" stands for any other name with a dot
-  std::string unit;     ///< empty: that of the quantity
-  std::string meaning, formula;
-};
+/// As the observers describe them.
 const std::vector<ColumnDescription>& describe_history_columns();
 /// The description of a column by its name without the unit; null when there is none.
 const ColumnDescription* find_description(const std::string& column);

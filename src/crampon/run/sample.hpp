@@ -7,18 +7,7 @@
 
 namespace crampon {
 
-/// A particle quantity as users meet it.
-struct QuantityDescription {
-  std::string name, unit;
-  int components = 1;   ///< 1, 3 (x, y, z) or 6 (xx, yy, zz, xy, yz, xz)
-  bool common = false;  ///< written unless the input chooses
-  std::string meaning, formula;
-};
-std::vector<QuantityDescription> describe_particle_quantities();
-std::vector<std::string> particle_quantity_names();
-std::vector<std::string> common_quantity_names();
-
-/// Particles in the order of their ids, rounded to `precision`. Throws std::invalid_argument for a quantity that does not exist.
+/// Particles in the order of their ids, rounded to `precision`; quantities: names of quantities_of(model), none: the common ones. Throws std::invalid_argument for a quantity that does not exist.
 template <int Dim>
 PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, const std::vector<std::string>& quantities,
                             Precision precision = Precision::full);

@@ -12,6 +12,7 @@
 #include "crampon/run/history_sampler.hpp"
 #include "crampon/run/large_stretch.hpp"
 #include "crampon/run/notes/notes.hpp"
+#include "crampon/run/quantities.hpp"
 #include "crampon/run/sample.hpp"
 #include "crampon/shape/bspline.hpp"
 #include "crampon/shape/cpdi.hpp"
@@ -20,6 +21,7 @@
 #include "crampon/step/advance.hpp"
 #include "crampon/step/face_loads.hpp"
 #include "crampon/step/ledger.hpp"
+#include "crampon/step/particle_view.hpp"
 #include "crampon/step/reorder.hpp"
 
 namespace crampon {
@@ -112,7 +114,7 @@ class Engine final : public Simulation {
     return out;
   }
 
-  std::vector<std::string> particle_quantities() const override { return particle_quantity_names(); }
+  std::vector<std::string> particle_quantities() const override { return quantity_names_of(model_); }
   PointFrame particles(const std::vector<std::string>& names, Precision precision) const override {
     return sample_particles(state_, model_, names, precision);
   }
@@ -233,11 +235,9 @@ class Engine final : public Simulation {
       watches_wave_speed_ = watches_wave_speed_ || m.law->wave_speed_changes();
     }
     for (const Run& run : state_.order.runs) {
-      const MaterialLaw& law = *model_.materials[run.material].law;
-      if (!law.wave_speed_changes()) continue;
+      if (!model_.materials[run.material].law->wave_speed_changes()) continue;
       for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
-        const Pack c = law.wave_speed(model_.stress_state, Dim, &state_.particles.stress[k * stress_size<Dim>],
-                                      state_.particles.history.data() + k * state_.particles.history_size);
+        const Pack c = PackView<Dim>(state_, model_, run.material, k).wave_speed();
         for (int l = 0; l < lanes; ++l) fastest = std::fmax(fastest, c[l]);
       }
     }

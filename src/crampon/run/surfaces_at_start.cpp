@@ -8,6 +8,7 @@
 #include "crampon/geometry/combine.hpp"
 #include "crampon/geometry/placed.hpp"
 #include "crampon/geometry/way_out.hpp"
+#include "crampon/step/particle_view.hpp"
 
 namespace crampon {
 
@@ -59,8 +60,7 @@ void keep_undeformed(const State<Dim>& state, Model<Dim>& model, std::size_t cou
   for (const Run& run : state.order.runs) {
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
       Pack F[Dim * Dim];
-      model.materials[run.material].law->deformation(model.stress_state, Dim, &particles.stress[k * stress_size<Dim>],
-                                                     particles.history.data() + k * static_cast<std::size_t>(particles.history_size), F);
+      PackView<Dim>(state, model, run.material, k).deformation(F);
       for (std::size_t l = 0; l < lanes; ++l) {
         const std::size_t p = k * lanes + l;
         if (particles.is_padding(p)) continue;

@@ -34,20 +34,22 @@ struct EnergyTotals {
 template <int Dim>
 struct ParticleSums {
   double mass = 0, kinetic = 0, strain = 0;  ///< kg, J, J
+  double dissipated = 0;                     ///< by material laws since the start, J
   Vec<Dim> momentum;                         ///< kg m/s
   double angular = 0;                        ///< z component about the origin, kg m2/s
   ParticleSums& operator+=(const ParticleSums& other) {
-    mass += other.mass, kinetic += other.kinetic, strain += other.strain, angular += other.angular;
+    mass += other.mass, kinetic += other.kinetic, strain += other.strain, dissipated += other.dissipated, angular += other.angular;
     momentum += other.momentum;
     return *this;
   }
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [mass, kinetic, strain, momentum, angular] = self;
+    auto& [mass, kinetic, strain, dissipated, momentum, angular] = self;
     visit(Member{"mass", "kg"}, mass);
     visit(Member{"kinetic", "J"}, kinetic);
     visit(Member{"strain", "J"}, strain);
+    visit(Member{"dissipated", "J"}, dissipated);
     visit(Member{"momentum", "kg m/s"}, momentum);
     visit(Member{"angular", "kg m2/s"}, angular);
   }

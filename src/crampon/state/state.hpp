@@ -19,7 +19,7 @@
 
 namespace crampon {
 
-struct Clock {
+struct RunClock {
   double time = 0;        ///< s
   std::int64_t step = 0;  ///< steps done
   double time_step = 0;   ///< that waves allow, s: found anew now and then where it may change
@@ -71,7 +71,7 @@ struct Observed {
 
 template <int Dim>
 struct State {
-  Clock clock;
+  RunClock clock;
   Particles<Dim> particles;
   ParticleOrder order;
   Cracks<Dim> cracks;

@@ -19,7 +19,7 @@ void advance(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, do
 template <int Dim, class Shape>
 std::vector<Stage<Dim>> stages();
 
-/// Looks at particles and cracks as the next step will, and finds what traction laws allow for its length (Clock::traction_time_step).
+/// Looks at particles and cracks as the next step will, and finds what traction laws allow for its length (RunClock::traction_time_step).
 /// Without such laws it does nothing.
 template <int Dim, class Shape>
 StiffestVertex find_stiffest_vertex(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);

@@ -3,6 +3,7 @@
 #include "crampon/step/assemble.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/packs.hpp"
+#include "crampon/step/particle_view.hpp"
 
 namespace crampon {
 
@@ -69,8 +70,7 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const StepWork<Dim>& wo
               }
               if (!inside || !wanted[static_cast<std::size_t>(local)]) continue;
               if (!has_F) {
-                material.law->deformation(model.stress_state, Dim, &state.particles.stress[std::size_t{pack} * stress_size<Dim>],
-                                          state.particles.history.data() + std::size_t{pack} * state.particles.history_size, F);
+                PackView<Dim>(state, model, run.material, pack).deformation(F);
                 has_F = true;
               }
               CloudPoint<Dim> point;

@@ -19,7 +19,7 @@ struct StiffestVertex {
   std::size_t crack = 0, vertex = 0;
 };
 
-/// Between Tasks 2 and 3: shares the forces on the surface points among the nodes that move them; finds Clock::traction_time_step. Serial.
+/// Between Tasks 2 and 3: shares the forces on the surface points among the nodes that move them; finds RunClock::traction_time_step. Serial.
 template <int Dim, class Shape>
 StiffestVertex spread_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 

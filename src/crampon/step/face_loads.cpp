@@ -5,6 +5,7 @@
 
 #include "crampon/material/deformation.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/particle_view.hpp"
 #include "crampon/step/stress_pass.hpp"
 #include "crampon/step/tile_buffer.hpp"
 
@@ -139,17 +140,17 @@ class DeformationNow {
     if (stress_dt_ > 0) velocity_ = gathered<Dim, Shape>(work, b, work.nodes.velocity);
   }
   /// F[d * Dim + k]
-  void find(std::size_t pack, const Material<Dim>& material, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, Pack* F) const {
-    const Particles<Dim>& particles = state_.particles;
+  void find(std::size_t pack, std::size_t of_material, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, Pack* F) const {
+    const Material<Dim>& material = model_.materials[of_material];
     if constexpr (Shape::has_domains) {
+      const Particles<Dim>& particles = state_.particles;
       for (int c = 0; c < Dim * Dim; ++c) {
         const double at_start = material.half_size[static_cast<std::size_t>(c % Dim)] * model_.grid.cell[c % Dim];
         F[c] = particles.domain[pack * domain_size<Dim> + static_cast<std::size_t>(c)] * splat(1 / at_start);
       }
       return;
     }
-    material.law->deformation(model_.stress_state, Dim, &particles.stress[pack * stress_size<Dim>],
-                              particles.history.data() + pack * static_cast<std::size_t>(particles.history_size), F);
+    PackView<Dim>(state_, model_, of_material, pack).deformation(F);
     if (stress_dt_ == 0) return;
     Pack L[Dim * Dim];
     gradient<Dim, Shape>(stencil, targets, work_.nodes.layers[block_].offsets.start.data(), velocity_, L);
@@ -189,11 +190,9 @@ void weigh_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& 
         const Material<Dim>& material = model.materials[run.material];
         if (pack != known) {
           known = pack;
-          deformation.find(pack, material, stencil, targets, F_pack);
+          deformation.find(pack, run.material, stencil, targets, F_pack);
           if (model.stress_state == StressState::plane_stress) {
-            const PackReport report =
-                material.law->report(model.stress_state, Dim, &particles.stress[pack * stress_size<Dim>],
-                                     particles.history.data() + pack * static_cast<std::size_t>(particles.history_size));
+            const PackReport report = PackView<Dim>(state, model, run.material, pack).report();
             stretch = report.volume_ratio / report.area_ratio;  // of the thickness
           }
         }

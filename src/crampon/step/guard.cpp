@@ -9,6 +9,7 @@
 #include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/ledger.hpp"
+#include "crampon/step/particle_view.hpp"
 
 namespace crampon {
 
@@ -73,11 +74,7 @@ void report_bad_number(const State<Dim>& state, const StepWork<Dim>& work, std::
 template <int Dim>
 void report_inverted(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
   for_particles(state, work, b, [&](std::size_t p, const Run& run) {
-    const std::size_t k = p / lanes;
-    const PackReport report =
-        model.materials[run.material].law->report(model.stress_state, Dim, &state.particles.stress[k * stress_size<Dim>],
-                                                  state.particles.history.data() + k * state.particles.history_size);
-    const double ratio = report.volume_ratio[p % lanes];
+    const double ratio = PackView<Dim>(state, model, run.material, p / lanes).report().volume_ratio[p % lanes];
     if (ratio > 0) return;
     stop(state, p, fmt::format("has turned inside out (volume ratio {:.4g})", ratio),
          "lower the Courant factor, use usavg with gimp or bspline shape functions, or a material for large strain (neo_hookean)");

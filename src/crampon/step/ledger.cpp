@@ -5,6 +5,7 @@
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/packs.hpp"
+#include "crampon/step/particle_view.hpp"
 
 namespace crampon {
 
@@ -75,9 +76,8 @@ namespace {
 template <int Dim, class Chosen>
 void add_pack(const State<Dim>& state, const Model<Dim>& model, const Run& run, std::size_t pack, Chosen chosen, ParticleSums<Dim>& sum) {
   const Particles<Dim>& particles = state.particles;
-  const PackReport report = model.materials[run.material].law->report(model.stress_state, Dim, &particles.stress[pack * stress_size<Dim>],
-                                                                      particles.history.data() + pack * particles.history_size);
-  const Pack strain = report.energy * particles.mass_volume[2 * pack + 1];
+  const PackView<Dim> view(state, model, run.material, pack);
+  const Pack volume = particles.mass_volume[2 * pack + 1], strain = view.report().energy * volume, dissipated = view.dissipated() * volume;
   for (int l = 0; l < lanes; ++l) {
     const std::size_t p = pack * lanes + l;
     if (!chosen(p)) continue;
@@ -86,6 +86,7 @@ void add_pack(const State<Dim>& state, const Model<Dim>& model, const Run& run, 
     sum.mass += m;
     sum.kinetic += 0.5 * m * dot(v, v);
     sum.strain += strain[l];
+    sum.dissipated += dissipated[l];
     sum.momentum += v * m;
     sum.angular += m * (x[0] * v[1] - x[1] * v[0]);
   }

@@ -3,6 +3,7 @@
 #include "crampon/step/assemble.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/packs.hpp"
+#include "crampon/step/particle_view.hpp"
 #include "crampon/step/tile_buffer.hpp"
 
 namespace crampon {
@@ -104,9 +105,8 @@ void project_contact_sums(State<Dim>& state, StepWork<Dim>& work, const Model<Di
         const Material<Dim>& material = model.materials[run.material];
         Pack volume = splat(0.);
         if (volumes) {
-          const PackReport report = material.law->report(model.stress_state, Dim, &particles.stress[std::size_t{pack} * stress_size<Dim>],
-                                                         particles.history.data() + std::size_t{pack} * particles.history_size);
-          volume = particles.mass_volume[2 * std::size_t{pack} + 1] * report.area_ratio / material.thickness;
+          const Pack area_ratio = PackView<Dim>(state, model, run.material, pack).report().area_ratio;
+          volume = particles.mass_volume[2 * std::size_t{pack} + 1] * area_ratio / material.thickness;
         }
         for (int l = 0; l < lanes; ++l) {
           const std::size_t p = std::size_t{pack} * lanes + l;
