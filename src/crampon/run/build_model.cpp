@@ -221,7 +221,7 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
     packs += count;
   }
   Particles<Dim>& particles = state.particles;
-  const bool has_domains = model.shape_functions == ShapeFunctionKind::cpdi;
+  const bool has_domains = crampon::has_domains(model.shape_functions);
   particles.allocate(packs, history, model.remembers_contact(), has_domains);
   for (std::size_t m = 0; m < by_material.size(); ++m) {
     const Run& run = state.blocks.runs[m];

@@ -67,7 +67,7 @@ void project_mirrored_forces(const State<Dim>& state, const Model<Dim>& model, s
 template <int Dim, class Shape>
 void account_mirrored_forces(State<Dim>& state, const Model<Dim>& model, std::size_t b, double dt, const std::vector<Vec<Dim>>& load_values,
                              const Vec<Dim>& body_force, double damping) {
-  if (Shape::width < 3 || !state.blocks.list[b].has_particles()) return;
+  if (!sees_beyond_faces<Shape> || !state.blocks.list[b].has_particles()) return;
   using T = Tile<Dim, Shape>;
   const std::vector<std::uint32_t> packs = folded_packs<Dim, Shape>(state, b);
   if (packs.empty()) return;
