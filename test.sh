@@ -15,4 +15,8 @@ cmake/install_packages.sh build test
 cmake/build.sh release -DCRAMPON_TESTS=ON all
 # Two at a time; waiting threads sleep, so that tests beside each other do not slow each other down.
 export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
-exec ctest --test-dir build/release --output-on-failure --parallel 2 "${select[@]}" "$@"
+times=build/release/test_times.xml
+passed=0
+ctest --test-dir build/release --output-on-failure --parallel 2 --output-junit "$PWD/$times" "${select[@]}" "$@" || passed=$?
+[ ! -f "$times" ] || python3 tests/test_times.py "$times"
+exit "$passed"

@@ -13,9 +13,7 @@
 #include "crampon/contact/normal.hpp"
 #include "crampon/crack/crossing.hpp"
 #include "crampon/input/read_problem.hpp"
-#include "crampon/shape/bspline.hpp"
-#include "crampon/shape/gimp.hpp"
-#include "crampon/shape/linear.hpp"
+#include "crampon/shape/registry.hpp"
 #include "crampon/step/packs.hpp"
 
 namespace crampon {

@@ -11,6 +11,7 @@
 
 #include "crampon/input/read_problem.hpp"
 #include "crampon/run/simulation.hpp"
+#include "crampon/shape/registry.hpp"
 
 namespace crampon::test {
 
@@ -21,6 +22,40 @@ inline std::unique_ptr<Simulation> make(const std::string& text, const std::vect
 /// A [[material]] named "m" of density 1000 kg/m3 and nu = .3, for inputs as text. E: Pa
 inline std::string material(const char* law, double E) {
   return fmt::format("[[material]]\nname = \"m\"\nlaw = \"{}\"\nE = {}\nnu = 0.3\ndensity = 1000\n", law, E);
+}
+
+/// The words of all shape functions.
+inline std::vector<const char*> all_shape_functions() {
+  std::vector<const char*> words;
+  for_each_shape([&]<class Shape>(std::type_identity<Shape>) { words.push_back(Shape::name); });
+  return words;
+}
+/// Cases of a test, one or more for each of the shape functions: make(word) gives those of one.
+template <class Case, class Make>
+std::vector<Case> for_all_shape_functions(Make make) {
+  std::vector<Case> all;
+  for (const char* word : all_shape_functions()) {
+    for (const Case& c : make(word)) all.push_back(c);
+  }
+  return all;
+}
+inline ShapeFunctionKind kind_of_word(const std::string& word) {
+  int kind = -1;
+  for_each_shape([&]<class Shape>(std::type_identity<Shape>) {
+    if (word == Shape::name) kind = static_cast<int>(kind_of<Shape>);
+  });
+  if (kind < 0) throw std::runtime_error("no shape function " + word);
+  return ShapeFunctionKind{kind};
+}
+/// Do nodes see particles without size that are more than a cell away? So do B-splines, for bars that depend on it.
+inline bool sees_beyond_cell(const std::string& word) { return boxes_of(kind_of_word(word)).reach_of_sums() > 1; }
+/// The words of those whose gradients do not jump.
+inline std::vector<const char*> smooth_shape_functions() {
+  std::vector<const char*> words;
+  for (const char* word : all_shape_functions()) {
+    if (boxes_of(kind_of_word(word)).smoothness() > 0) words.push_back(word);
+  }
+  return words;
 }
 
 /// Steps to the end; `each` sees the simulation after every step.

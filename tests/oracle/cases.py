@@ -7,6 +7,8 @@ zero but for rounding: the state of contact would then be a matter of the order 
 """
 import math
 
+from shapes import SHAPES
+
 H = 1 / 128
 DT = 1.5e-4
 
@@ -70,7 +72,8 @@ def closing_cases():
         ("literal", "displacement", "coulomb", "usavg", "linear"), ("literal", "volume", "coulomb", "musl", "linear"),
         ("literal", "volume", "frictionless", "usavg", "bspline"), ("literal", "volume", "stick", "usf", "linear"),
         ("literal", "displacement", "stick", "usl", "gimp"), ("consistent", "displacement", "none", "usavg", "gimp"),
-        ("consistent", "displacement", "bonded", "usavg", "bspline")]
+        ("consistent", "displacement", "bonded", "usavg", "bspline"),
+        ("consistent", "displacement", "coulomb", "usavg", "cubic_bspline"), ("literal", "volume", "frictionless", "musl", "cubic_bspline")]
     for scheme, detection, law, update, shape in choices:
         yield base("closing_%s_%s_%s_%s_%s" % (scheme, detection, law, update, shape),
                    block((3, 4), (9, 10), closing(0.5), shift=(0.03, -0.02)), stress_update=update, shape=shape, loads=PRESS,
@@ -110,7 +113,7 @@ def crossing_cases():
 
 def geometry_cases():
     arc = [(6.1 + 2.3 * math.cos(a), 6.2 + 2.3 * math.sin(a)) for a in [0.2 + 0.4 * k for k in range(8)]]
-    for shape in ("linear", "gimp", "bspline"):
+    for shape in SHAPES:
         yield base("curved_%s" % shape, block((3, 4), (9, 10), breathing, shift=(0.013, 0.021)), shape=shape,
                    cracks=[{"points": path(*arc), "law": "coulomb", "friction": 0.25}])
     yield base("through_nodes", block((3, 4), (9, 10), closing(0.4)),
@@ -132,11 +135,12 @@ def boundary_cases():
                        stress_update={"incremental": "usavg", "n13": "usavg", "zero": "usf"}[force],
                        boundaries=[dict(left, vx=0.0, vy=0.0), dict(right, vx=ramp)],
                        cracks=[{"points": path((4.5, 6.2), (7.6, 6.1)), "law": "coulomb", "friction": 0.3}])
-    yield base("boundary_bspline", slab(), shape="bspline", boundaries=[dict(left, vx=0.0, vy=0.0), dict(right, vx="100*t")])
+    for shape in ("bspline", "cubic_bspline"):
+        yield base("boundary_" + shape, slab(), shape=shape, boundaries=[dict(left, vx=0.0, vy=0.0), dict(right, vx="100*t")])
 
 
 def symmetry_cases():
-    for shape in ("linear", "gimp", "bspline"):
+    for shape in SHAPES:
         yield base("symmetry_part_%s" % shape, block((3, 6), (11, 9), lambda x, y: (0.1 * math.sin(x), 0.1 * x / (y - 4))), shape=shape,
                    symmetries=[{"axis": 1, "at": 6 * H, "side": 1, "low": 7 * H}], analysis="plane_stress")
 

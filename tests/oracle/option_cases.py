@@ -51,14 +51,14 @@ def meeting_plane_cases():
     plane = [{"axis": 0, "at": 3 * H, "side": 1}]
     yield base("meeting_plane_linear", particles, symmetries=plane, steps=20,
                cracks=[{"points": path((3, 6.6), (7.3, 7.42)), "law": "frictionless"}])
-    for shape in ("gimp", "bspline"):
+    for shape in ("gimp", "bspline", "cubic_bspline"):
         yield base("meeting_plane_%s" % shape, particles, symmetries=plane, steps=20, shape=shape,
                    cracks=[{"points": path((0.8, 7.02), (3, 6.6), (5.2, 7.02), (7.3, 7.42)), "law": "frictionless", "fixed": True}])
 
 
 def gravity_cases():
     """Block on a mirror with gravity towards it: mirrored particles weigh the other way."""
-    for shape in ("gimp", "bspline"):
+    for shape in ("gimp", "bspline", "cubic_bspline"):
         yield base("gravity_on_mirror_%s" % shape, block((3, 6), (9, 9), lambda x, y: (0.02 * math.sin(x), 0.0), shift=(0.04, -0.05)),
                    shape=shape, body_force=(3.0, "-50-9000*t"), symmetries=[{"axis": 1, "at": 6 * H, "side": 1}], steps=20)
 

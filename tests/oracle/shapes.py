@@ -56,7 +56,26 @@ def bspline(x, x0, h, half_size):
     return result
 
 
-SHAPES = {"linear": linear, "gimp": gimp, "bspline": bspline}
+def cubic_bspline(x, x0, h, half_size):
+    """Cubic B-spline with knots at the nodes."""
+    result = []
+    centre = math.floor((x - x0) / h)
+    for i in range(centre - 1, centre + 3):
+        xi = (x - x0) / h - i
+        a = abs(xi)
+        sign = 1.0 if xi > 0 else -1.0
+        if a < 1:
+            s, g = 2 / 3 - a ** 2 + a ** 3 / 2, sign * (1.5 * a ** 2 - 2 * a) / h
+        elif a < 2:
+            s, g = (2 - a) ** 3 / 6, -sign * (2 - a) ** 2 / (2 * h)
+        else:
+            continue
+        if s > 0:
+            result.append((i, s, g))
+    return result
+
+
+SHAPES = {"linear": linear, "gimp": gimp, "bspline": bspline, "cubic_bspline": cubic_bspline}
 
 
 def shape_2d(kind, x, y, grid, half_size):

@@ -24,7 +24,7 @@ def mirrored_rows(case, axis, at):
 
 def half_equals_full():
     """Cracks that meet a mirror at an angle, contact by distance and by volume: half a model and the whole of it."""
-    half_cases = [named(option_cases.meeting_plane_cases, "meeting_plane_" + shape) for shape in ("linear", "gimp", "bspline")]
+    half_cases = [named(option_cases.meeting_plane_cases, "meeting_plane_" + shape) for shape in ("linear", "gimp", "bspline", "cubic_bspline")]
     half_cases.append(named(option_cases.volume_option_cases, "initial_volume_mirror"))
     for half in half_cases:
         at = half["symmetries"][0]["at"]

@@ -133,7 +133,7 @@ TEST_P(CrackPatch, FullModelEqualsHalfModel) {
 
 std::vector<PatchCase> cases() {
   std::vector<PatchCase> list;
-  for (const char* shape : {"linear", "gimp", "bspline"}) {
+  for (const char* shape : all_shape_functions()) {
     for (const char* update : {"usl", "musl", "usf", "usavg"}) list.push_back({update, shape, 50, false, false, 2});
     list.push_back({"usavg", shape, 51.3, false, false, 2.7});  // tip and vertices off nodes
     list.push_back({"usavg", shape, 50, true, false, 1});

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "crampon/contact/separation.hpp"
+#include "crampon/shape/registry.hpp"
+#include "unit/box_profile.hpp"
 
 namespace crampon::test {
 
@@ -26,21 +28,15 @@ struct Particle {
   ContactSide side = ContactSide::a;
 };
 
-enum class Shape { linear, gimp, bspline };
-inline constexpr Shape shapes[] = {Shape::linear, Shape::gimp, Shape::bspline};
-
-/// Value and slope at xi cells from the node; l is the half size of the particle in cells (Bardenhagen & Kober 2004; Steffen et al. 2008).
-inline std::array<double, 2> profile(Shape shape, double xi, double l) {
-  const double r = std::fabs(xi), sign = xi < 0 ? -1 : 1;
-  if (shape == Shape::bspline) {
-    if (r < 0.5) return {0.75 - xi * xi, -2 * xi};
-    return r < 1.5 ? std::array{0.5 * (1.5 - r) * (1.5 - r), -sign * (1.5 - r)} : std::array{0., 0.};
-  }
-  if (shape == Shape::gimp && r < l) return {1 - (xi * xi + l * l) / (2 * l), -xi / l};
-  if (shape == Shape::gimp && r >= 1 - l)
-    return r < 1 + l ? std::array{(1 + l - r) * (1 + l - r) / (4 * l), -sign * (1 + l - r) / (2 * l)} : std::array{0., 0.};
-  return r < 1 ? std::array{1 - r, -sign} : std::array{0., 0.};
+/// A shape function, by its boxes.
+using Shape = ProfileBoxes;
+/// All of the family.
+inline std::vector<Shape> all_shapes() {
+  std::vector<Shape> boxes;
+  for_each_shape([&]<class Of>(std::type_identity<Of>) { boxes.push_back(Of::boxes); });
+  return boxes;
 }
+inline const std::vector<Shape> shapes = all_shapes();
 
 /// What a node knows of both sides; 0 is a, 1 is b.
 template <int Dim>
@@ -67,11 +63,11 @@ View<Dim> see(const std::vector<Particle<Dim>>& particles, const Vec<Dim>& node,
     Vec<Dim> G;
     for (int k = 0; k < Dim; ++k) {
       point.x[k] = p.x[k] / cell[k];
-      S *= profile(shape, point.x[k], l)[0];
+      S *= profile(shape, point.x[k], l).value;
       V *= 2 * l * cell[k];
     }
     if (S < 1e-14) continue;
-    for (int k = 0; k < Dim; ++k) G[k] = S / profile(shape, point.x[k], l)[0] * profile(shape, point.x[k], l)[1] / cell[k];
+    for (int k = 0; k < Dim; ++k) G[k] = S / profile(shape, point.x[k], l).value * profile(shape, point.x[k], l).slope / cell[k];
     const int side = p.side == ContactSide::b;
     view.V[side] += V * S;
     view.x[side] += V * S * p.x;
@@ -111,7 +107,7 @@ struct Touching {
     const Vec<2> on_line = n() * offset;
     const Sides sides = [&](const Vec<2>& x) { return dot(x - on_line, n()) < 0 ? -1 : 1; };
     if (rows_are == Rows::along_grid) return rows(l, 0, {}, {{half_length, half_length}}, sides);
-    return rows(l, angle, on_line + t() * (1.73 * offset), {{half_length, 2.5}}, sides);
+    return rows(l, angle, on_line + t() * (1.73 * offset), {{half_length, 4}}, sides);
   }
 };
 inline constexpr double degree = pi / 180;
@@ -131,8 +127,7 @@ void for_nodes(const std::vector<Particle<2>>& particles, int reach, Shape shape
 
 inline EdgeMap edge_map(Shape shape, double l, Packing packing = Packing::layers) {
   const double half_sizes[] = {l};
-  if (shape == Shape::linear) return EdgeMap::linear(half_sizes, packing);
-  return shape == Shape::gimp ? EdgeMap::gimp(half_sizes, packing) : EdgeMap::bspline(half_sizes, packing);
+  return EdgeMap(shape, half_sizes, packing);
 }
 
 template <int Dim>

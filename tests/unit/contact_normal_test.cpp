@@ -19,7 +19,7 @@ TEST(ContactNormal, AroundCircle) {
         const double r = norm(x - centre);
         return std::fabs(r - 8) > 3 ? 0 : r < 8 ? -1 : 1;
       });
-      for_nodes(particles, 10, Shape::gimp, e.l, [&](const Vec<2>& node, const View<2>& view) {
+      for_nodes(particles, 10, GimpShape::boxes, e.l, [&](const Vec<2>& node, const View<2>& view) {
         const auto n = logistic_regression_normal<2>(view.points, unit_cell);
         if (!n) return;
         const Vec<2> radius = normalized(node - centre);
@@ -40,7 +40,7 @@ TEST(ContactNormal, StraightInterface) {
     double weights = 0, gradient = 0, logistic = 0;
     for (int trial = -5; trial <= 5; ++trial) {
       const Touching touching{angle * degree, 0.1 * trial};
-      for_nodes(touching.particles(), 4, Shape::gimp, 0.25, [&](const Vec<2>&, const View<2>& view) {
+      for_nodes(touching.particles(), 4, GimpShape::boxes, 0.25, [&](const Vec<2>&, const View<2>& view) {
         weights += view.smaller();
         gradient += view.smaller() * degrees_between(view.gradient(), touching.n());
         logistic += view.smaller() * degrees_between(logistic_normal(view.points, unit_cell), touching.n());

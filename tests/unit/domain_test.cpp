@@ -156,7 +156,7 @@ TEST(Domains, ReachNoFurtherThanTheirStencil) {
 TEST(Domains, ShowNodesTheirEdge) {
   for (const double l : {0.5, 0.25, 0.125}) {
     const double half_sizes[] = {l};
-    const EdgeMap map = EdgeMap::cpdi(half_sizes);
+    const EdgeMap map = EdgeMap(CpdiShape::boxes, half_sizes);
     double before = map.edge_distance(-1);
     for (double d = -0.99; d < 1 - l; d += 0.02) {
       double sum = 0, mean = 0;

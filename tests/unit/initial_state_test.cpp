@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <random>
 
 #include "crampon/material/elastic_large_rotation.hpp"
 #include "crampon/material/elastic_small_strain.hpp"
 #include "crampon/material/initial_state.hpp"
+#include "crampon/material/j2_plasticity.hpp"
 #include "crampon/material/neo_hookean.hpp"
 
 namespace crampon {
@@ -77,6 +79,23 @@ TEST(InitialState, SaysSoWhereTheLawHasNoSuchState) {
     if (!find_initial_state<2>(*law, StressState::plane_strain, wanted, stress, history)) continue;
     const PackReport report = law->report(StressState::plane_strain, 2, stress, history);
     EXPECT_NEAR(stress[0][0] * report.to_cauchy[0], -1e12, 1e3) << law->name();
+  }
+}
+
+/// A metal bears stress below yield from the start; a stress beyond it took flow on a way that nobody has told.
+TEST(InitialState, OfAMetalLiesBelowYield) {
+  const LawKernel<J2Plasticity> steel({200e9, 0.3, 250e6, 1e9, 7850});
+  for (const double stress : {-249e6, 100e6, 249e6, 251e6, 400e6}) {
+    const bool below = std::fabs(stress) < 250e6;
+    Pack plane[3] = {splat(stress), splat(0.), splat(0.)},
+         space[6] = {splat(stress), splat(0.), splat(0.), splat(0.), splat(0.), splat(0.)};
+    Pack found[6], history[17];
+    EXPECT_EQ(find_initial_state<2>(steel, StressState::plane_stress, plane, found, history), below) << stress;
+    EXPECT_EQ(find_initial_state<3>(steel, StressState::three_dimensional, space, found, history), below) << stress;
+    if (!below) continue;
+    EXPECT_NEAR(found[0][0] / steel.report(StressState::three_dimensional, 3, found, history).volume_ratio[0], stress,
+                1e-9 * std::fabs(stress));
+    EXPECT_EQ(history[steel.find_variable(3, "plastic_strain")->at][0], 0);
   }
 }
 

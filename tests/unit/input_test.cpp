@@ -183,7 +183,7 @@ TEST(Overrides, ReplaceAndAddEntries) {
                                        "crack[0].points[1][0]=\"40 mm\"", "title=My beam", "grid.cell=2.5 mm", "crack[1].contact=none",
                                        "time={ steps = 3, step = 1e-5 }", "load[0].region.kind=everywhere"});
   EXPECT_EQ(p.method.stress_update, StressUpdate::musl);
-  EXPECT_EQ(p.method.shape_functions, ShapeFunctionKind::gimp);
+  EXPECT_EQ(p.method.shape_functions, kind_of<GimpShape>);
   EXPECT_EQ(p.bodies[0].velocity[1](0, {}), 0.002);
   EXPECT_EQ(p.cracks[0].points[1][0], 0.04);
   EXPECT_EQ(p.title, "My beam");

@@ -1,40 +1,61 @@
-/// Shape functions as the step sees them, through the stencil: what docs/theory/kinematics.md asks for, and its formulas once more.
+/// Shape functions as the step sees them, through the stencil: all members of the family, and what every one must have.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 #include <random>
+#include <vector>
 
-#include "crampon/shape/bspline.hpp"
-#include "crampon/shape/gimp.hpp"
-#include "crampon/shape/linear.hpp"
+#include "crampon/shape/registry.hpp"
 #include "crampon/shape/stencil.hpp"
+#include "unit/box_profile.hpp"
 
 namespace crampon::test {
 namespace {
 
-/// docs/theory/kinematics.md (shape functions) as printed: value and slope at xi = (x_p - x_i)/h; l: half size of the particle in cells.
-struct Profile {
-  double value = 0, slope = 0;
-};
 double sign(double a) { return a < 0 ? -1 : 1; }
-Profile profile(LinearShape, double xi, double) {
+
+/// The formulas as they are printed (docs/theory/step.md, shape functions).
+Profile printed(LinearShape, double xi, double) {
   const double r = std::fabs(xi);
   return r <= 1 ? Profile{1 - r, -sign(xi)} : Profile{};
 }
-Profile profile(GimpShape, double xi, double l) {
+Profile printed(GimpShape, double xi, double l) {
   const double r = std::fabs(xi);
   if (r < l) return {1 - (xi * xi + l * l) / (2 * l), -xi / l};
   if (r < 1 - l) return {1 - r, -sign(xi)};
   if (r < 1 + l) return {(1 + l - r) * (1 + l - r) / (4 * l), -sign(xi) * (1 + l - r) / (2 * l)};
   return {};
 }
-Profile profile(BsplineShape, double xi, double) {
+Profile printed(BsplineShape, double xi, double) {
   const double r = std::fabs(xi);
   if (r < 0.5) return {0.75 - xi * xi, -2 * xi};
   if (r < 1.5) return {0.5 * (1.5 - r) * (1.5 - r), -sign(xi) * (1.5 - r)};
   return {};
+}
+Profile printed(CubicBsplineShape, double xi, double) {
+  const double r = std::fabs(xi);
+  if (r < 1) return {2. / 3 - r * r + r * r * r / 2, sign(xi) * (1.5 * r * r - 2 * r)};
+  if (r < 2) return {std::pow(2 - r, 3) / 6, -sign(xi) * (2 - r) * (2 - r) / 2};
+  return {};
+}
+Profile printed(CpdiShape, double xi, double l) {
+  const Profile low = printed(LinearShape{}, xi - l, 0), high = printed(LinearShape{}, xi + l, 0);
+  return {(low.value + high.value) / 2, (high.value - low.value) / (2 * l)};
+}
+
+TEST(Boxes, AreThePrintedFormulas) {
+  const auto compare = [](auto shape) {
+    for (const double l : {0.5, 0.25, 1. / 6, 0.125}) {
+      for (double xi = -2.3; xi < 2.3; xi += 0.0173) {
+        const Profile a = profile(decltype(shape)::boxes, xi, l), b = printed(shape, xi, l);
+        EXPECT_NEAR(a.value, b.value, 1e-13) << shape.name << " at " << xi;
+        EXPECT_NEAR(a.slope, b.slope, 1e-12) << shape.name << " at " << xi;
+      }
+    }
+  };
+  compare(LinearShape{}), compare(GimpShape{}), compare(BsplineShape{}), compare(CubicBsplineShape{}), compare(CpdiShape{});
 }
 
 template <int Dim>
@@ -52,7 +73,7 @@ struct Case {
 };
 
 template <class C>
-class ShapeFunctions : public testing::Test {
+class ShapeFunctionsOf : public testing::Test {
  protected:
   static constexpr int dim = C::dim;
   using Shape = typename C::Shape;
@@ -96,7 +117,15 @@ class ShapeFunctions : public testing::Test {
     const int lane = std::uniform_int_distribution<int>(0, lanes - 1)(random_);
     for (int k = 0; k < dim; ++k) packs[k][lane] = x[k];
     StencilFactors<dim, Shape> factors;
-    factors.compute(packs, grid_, first_node_, half_size_);
+    if constexpr (Shape::has_domains) {
+      DomainEdges<dim> edges;  // of particles as they are at the start
+      for (int j = 0; j < dim; ++j) {
+        for (int k = 0; k < dim; ++k) edges.r[j][k] = splat(j == k ? half_size_[k] : 0.);
+      }
+      factors.compute(packs, grid_, first_node_, edges);
+    } else {
+      factors.compute(packs, grid_, first_node_, half_size_);
+    }
     const Stencil<dim, Shape> stencil(factors);
     Weights<dim> out;
     for (int n = 0; n < Stencil<dim, Shape>::count; ++n) {
@@ -135,15 +164,23 @@ class ShapeFunctions : public testing::Test {
   HalfSize<dim> half_size_{};
 };
 
-using Cases = testing::Types<Case<2, LinearShape>, Case<2, GimpShape>, Case<2, BsplineShape>, Case<3, LinearShape>, Case<3, GimpShape>,
-                             Case<3, BsplineShape>>;
-TYPED_TEST_SUITE(ShapeFunctions, Cases);
+/// Every member of the family, in the plane and in space.
+template <class... Shapes>
+testing::Types<Case<2, Shapes>..., Case<3, Shapes>...> cases_of(ShapeList<Shapes...>);
+using Cases = decltype(cases_of(ShapeFunctions{}));
+struct Names {
+  template <class C>
+  static std::string GetName(int) {
+    return std::string(C::Shape::name) + (C::dim == 2 ? "_2d" : "_3d");
+  }
+};
+TYPED_TEST_SUITE(ShapeFunctionsOf, Cases, Names);
 
 constexpr int places = 300, positions = 10;
 // In cells, where particles are up to 50 cells from the origin: a position is known to 50 * 1e-16, and sums have up to 27 terms.
 constexpr double round_off = 1e-13;
 
-TYPED_TEST(ShapeFunctions, SumToOneAndReproduceLinearFields) {
+TYPED_TEST(ShapeFunctionsOf, SumToOneAndReproduceLinearFields) {
   constexpr int Dim = TypeParam::dim;
   for (int place = 0; place < places; ++place) {
     this->new_place();
@@ -172,7 +209,7 @@ TYPED_TEST(ShapeFunctions, SumToOneAndReproduceLinearFields) {
   }
 }
 
-TYPED_TEST(ShapeFunctions, AreTheFormulasOfTheTheory) {
+TYPED_TEST(ShapeFunctionsOf, AreTheirBoxesAndNothingElse) {
   constexpr int Dim = TypeParam::dim;
   for (int place = 0; place < places; ++place) {
     this->new_place();
@@ -187,8 +224,8 @@ TYPED_TEST(ShapeFunctions, AreTheFormulasOfTheTheory) {
         Profile f[Dim];
         for (int k = 0; k < Dim; ++k) {
           node[k] += nearest[k] - 2;
-          f[k] = profile(typename TypeParam::Shape{}, (x[k] - this->grid_.node_coordinate(k, node[k])) / this->grid_.cell[k],
-                         this->half_size_[k]);
+          f[k] =
+              profile(TypeParam::Shape::boxes, (x[k] - this->grid_.node_coordinate(k, node[k])) / this->grid_.cell[k], this->half_size_[k]);
         }
         Weight<Dim>& w = expected[node];
         w.S = 1;
@@ -209,7 +246,7 @@ TYPED_TEST(ShapeFunctions, AreTheFormulasOfTheTheory) {
 }
 
 /// Positions at which a profile changes its branch or the stencil moves on: node lines, mid-cell lines, l and 1 - l beside a node.
-TYPED_TEST(ShapeFunctions, AreContinuousAcrossCellBordersAndBranches) {
+TYPED_TEST(ShapeFunctionsOf, AreContinuousAcrossCellBordersAndBranches) {
   constexpr int Dim = TypeParam::dim;
   constexpr double step = 1e-9;
   for (int place = 0; place < places; ++place) {
@@ -224,15 +261,18 @@ TYPED_TEST(ShapeFunctions, AreContinuousAcrossCellBordersAndBranches) {
         const auto [S, G] = this->apart(this->weights(this->position(low)), this->weights(this->position(high)));
         // Slopes are at most one per cell, their change at most 1/l = 8 per cell.
         ASSERT_LT(S, 2.1 * step) << "axis " << axis << " at " << border;
-        constexpr bool smooth = !std::is_same_v<typename TypeParam::Shape, LinearShape>;
+        constexpr bool smooth = TypeParam::Shape::boxes.smoothness() > 0;
         ASSERT_TRUE(!smooth || G < 8.1 * 2 * step * Dim) << G << "axis " << axis << " at " << border;
       }
     }
   }
 }
 
-TYPED_TEST(ShapeFunctions, HaveTheGradientsOfTheirValues) {
+TYPED_TEST(ShapeFunctionsOf, HaveTheGradientsOfTheirValues) {
   constexpr int Dim = TypeParam::dim;
+  if constexpr (TypeParam::Shape::boxes.ends > 0) {
+    GTEST_SKIP() << "slopes of domains are not those of their values, but of what is linear between the ends: AreTheirBoxesAndNothingElse";
+  }
   constexpr double step = 1e-5;
   for (int place = 0; place < places; ++place) {
     this->new_place();
@@ -254,8 +294,84 @@ TYPED_TEST(ShapeFunctions, HaveTheGradientsOfTheirValues) {
   }
 }
 
+/// Derivatives across the borders of the test above: as many are continuous as the boxes say, and no more.
+TYPED_TEST(ShapeFunctionsOf, AreAsSmoothAsTheirBoxes) {
+  // The tests look at slopes. Those of domains are differences of the values at the ends, and jump no more.
+  constexpr int Dim = TypeParam::dim, smoothness = TypeParam::Shape::boxes.smoothness() + TypeParam::Shape::boxes.ends;
+  constexpr double step = 1e-3;
+  double jump[4] = {};  // largest, of the derivative of this order; per cell
+  for (int place = 0; place < places / 10; ++place) {
+    this->new_place();
+    for (int axis = 0; axis < Dim; ++axis) {
+      const double l = this->half_size_[axis];
+      for (const double border : {0., 0.5, l, 1 - l}) {
+        Vec<Dim> local;
+        for (int k = 0; k < Dim; ++k) local[k] = 3;  // at a node, whose functions along the other axes are not small
+        // Slopes beside the border; of polynomials, which derivatives on one side follow from.
+        std::map<IndexVector<Dim>, std::array<double, 4>> derivatives[2];
+        for (const int side : {0, 1}) {
+          Weights<Dim> at[4];
+          for (int k = 1; k < 4; ++k) {
+            local[axis] = 3 + border + (side == 0 ? -k : k) * step;
+            at[k] = this->weights(this->position(local));
+          }
+          for (const auto& [node, w] : at[1]) {
+            const auto slope = [&](int k) { return at[k].contains(node) ? at[k].at(node).G[axis] : 0.; };
+            const double out = side == 0 ? -1 : 1;
+            derivatives[side][node] = {0, 3 * slope(1) - 3 * slope(2) + slope(3),
+                                       out * (-2.5 * slope(1) + 4 * slope(2) - 1.5 * slope(3)) / step,
+                                       (slope(1) - 2 * slope(2) + slope(3)) / (step * step)};
+          }
+        }
+        for (const int side : {0, 1}) {
+          for (const auto& [node, d] : derivatives[side]) {
+            for (std::size_t k = 1; k < 4; ++k) {
+              const double other = derivatives[1 - side].contains(node) ? derivatives[1 - side].at(node)[k] : 0.;
+              jump[k] = std::fmax(jump[k], std::fabs(d[k] - other));
+            }
+          }
+        }
+      }
+    }
+  }
+  // Exact for pieces of up to the third degree, but for round-off of slopes over step^2.
+  for (int k = 1; k <= smoothness; ++k) EXPECT_LT(jump[k], 1e-5) << "derivative " << k;
+  static_assert(smoothness < 3, "the third derivative is the last that four slopes tell");
+  EXPECT_GT(jump[smoothness + 1], 0.3) << "derivative " << smoothness + 1 << " is continuous, too";
+}
+
+/// No node beyond the reach has a weight, and those just within it have one.
+TYPED_TEST(ShapeFunctionsOf, EndAtTheirReach) {
+  using Of = typename TypeParam::Shape;
+  constexpr int Dim = TypeParam::dim;
+  double furthest_over_reach = 0;
+  for (int place = 0; place < places; ++place) {
+    this->new_place();
+    for (int q = 0; q < positions; ++q) {
+      Vec<Dim> local = this->new_local();
+      // A hair within reach of a node along an axis.
+      const int axis = q % Dim;
+      const double reach = Of::boxes.reach(this->half_size_[axis]);
+      EXPECT_LE(reach, Of::reach(this->half_size_[axis]));
+      if (q % 2 == 0) local[axis] = 4 + (q % 4 == 0 ? 1 : -1) * (reach - 0.01);
+      const Vec<Dim> x = this->position(local);
+      for (const auto& [node, w] : this->weights(x)) {
+        for (int k = 0; k < Dim; ++k) {
+          const double away = std::fabs(this->grid_.node_coordinate(k, node[k]) - x[k]) / this->grid_.cell[k];
+          if (away > Of::boxes.reach(this->half_size_[k]) + 1e-12) {
+            EXPECT_EQ(w.S, 0) << away << " cells away";
+          }
+          if (w.S > 0) furthest_over_reach = std::fmax(furthest_over_reach, away / Of::boxes.reach(this->half_size_[k]));
+        }
+      }
+    }
+  }
+  EXPECT_GT(furthest_over_reach, 0.99);
+  EXPECT_LE(furthest_over_reach, 1 + 1e-12);
+}
+
 /// On a grid line no node may have a gradient without a weight, or a force would fall on a node without mass (conventions 38).
-TYPED_TEST(ShapeFunctions, OnGridLinesLeaveNoForceWithoutMass) {
+TYPED_TEST(ShapeFunctionsOf, OnGridLinesLeaveNoForceWithoutMass) {
   constexpr int Dim = TypeParam::dim;
   for (int place = 0; place < places; ++place) {
     this->new_place();
@@ -283,7 +399,7 @@ TYPED_TEST(ShapeFunctions, OnGridLinesLeaveNoForceWithoutMass) {
     for (const auto& [node, w] : weights) {
       double expected = 1;
       for (int k = 0; k < Dim; ++k)
-        expected *= profile(typename TypeParam::Shape{}, this->first_node_[k] + local[k] - node[k], this->half_size_[k]).value;
+        expected *= profile(TypeParam::Shape::boxes, this->first_node_[k] + local[k] - node[k], this->half_size_[k]).value;
       EXPECT_NEAR(w.S, expected, Dim * 1.1e-12);
     }
   }

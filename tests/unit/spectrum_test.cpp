@@ -33,6 +33,11 @@ std::vector<Matrix3d> tensors(bool plane) {
   return all;
 }
 
+/// Of four tensors.
+Pack component(const Matrix3d* A, int row, int column) {
+  return Pack{A[0](row, column), A[1](row, column), A[2](row, column), A[3](row, column)};
+}
+
 Matrix3d log_of(const Matrix3d& a) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(a);
   return eigen.eigenvectors() * eigen.eigenvalues().array().log().matrix().asDiagonal() * eigen.eigenvectors().transpose();
@@ -41,11 +46,9 @@ Matrix3d log_of(const Matrix3d& a) {
 TEST(Spectrum, LogarithmsOfTensorsInSpace) {
   const std::vector<Matrix3d> all = tensors(false);
   for (std::size_t first = 0; first < all.size(); first += lanes) {
-    Pack a[6] = {}, back[6], log[6];
+    Pack a[6], back[6], log[6];
     const int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
-    for (int c = 0; c < 6; ++c) {
-      for (int l = 0; l < lanes; ++l) a[c][l] = all[first + static_cast<std::size_t>(l)](row[c], column[c]);
-    }
+    for (int c = 0; c < 6; ++c) a[c] = component(&all[first], row[c], column[c]);
     const SpaceSpectrum of(a);
     of.compose(of.value, back);
     const Pack logs[3] = {lane_log(of.value[0]), lane_log(of.value[1]), lane_log(of.value[2])};
@@ -67,12 +70,8 @@ TEST(Spectrum, LogarithmsOfTensorsInSpace) {
 TEST(Spectrum, LogarithmsOfTensorsInThePlane) {
   const std::vector<Matrix3d> all = tensors(true);
   for (std::size_t first = 0; first < all.size(); first += lanes) {
-    Pack xx{}, yy{}, xy{}, back[3], log[3];
-    for (int l = 0; l < lanes; ++l) {
-      const Matrix3d& A = all[first + static_cast<std::size_t>(l)];
-      xx[l] = A(0, 0), yy[l] = A(1, 1), xy[l] = A(0, 1);
-    }
-    const PlaneSpectrum of(xx, yy, xy);
+    Pack back[3], log[3];
+    const PlaneSpectrum of(component(&all[first], 0, 0), component(&all[first], 1, 1), component(&all[first], 0, 1));
     of.compose(of.value[0] + of.value[1], of.value[0] - of.value[1], back);
     of.compose(lane_log(of.value[0]) + lane_log(of.value[1]), lane_log(of.value[0]) - lane_log(of.value[1]), log);
     for (int l = 0; l < lanes; ++l) {

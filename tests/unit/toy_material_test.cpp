@@ -286,5 +286,22 @@ TEST_F(ToyMaterial, ItsLossStandsInTheEnergyBalance) {
   for (const HistoryColumn& column : elastic->history_columns()) EXPECT_NE(column.name, "material_loss");
 }
 
+/// What left the grid took its energy along, and what the law had taken before stays counted.
+TEST_F(ToyMaterial, ItsLossStaysCountedWhereParticlesLeave) {
+  std::string text = input(2, fmt::format("[{{ expression = \"400+{}*(y-0.12)\" }}, 0]", 40 * shear));
+  text.replace(text.find("[time]"), 6, "[method]\nleaving_particle = \"remove\"\n[time]");
+  text.replace(text.find("40 Pa s"), 7, "4e3 Pa s");
+  const auto simulation = make(text, {"time.steps=200", "time.step=1e-6"});
+  double before = 0;
+  run(*simulation, [&](const Simulation& s) {
+    const double lost = value(s, "material_loss");
+    ASSERT_GE(lost, before * (1 - 1e-12));
+    before = lost;
+  });
+  EXPECT_GT(value(*simulation, "left_mass"), 5) << "a quarter of the 20.5 kg of the drop";
+  // The balance of the toy's own loss (ItsLossStandsInTheEnergyBalance), beside the round-off of an energy of motion that is 1e4 times the loss.
+  EXPECT_LT(std::fabs(value(*simulation, "energy_closure")), 0.05 * before);
+}
+
 }  // namespace
 }  // namespace crampon::test

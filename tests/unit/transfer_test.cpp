@@ -6,9 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "crampon/shape/bspline.hpp"
-#include "crampon/shape/gimp.hpp"
-#include "crampon/shape/linear.hpp"
+#include "crampon/shape/registry.hpp"
 #include "crampon/step/packs.hpp"
 
 namespace crampon::test {
@@ -22,8 +20,9 @@ struct Case {
 
 template <class C>
 class TransferOf : public testing::Test {};
-using Cases = testing::Types<Case<2, LinearShape>, Case<2, GimpShape>, Case<2, BsplineShape>, Case<3, LinearShape>, Case<3, GimpShape>,
-                             Case<3, BsplineShape>>;
+template <class... Shapes>
+testing::Types<Case<2, Shapes>..., Case<3, Shapes>...> cases_of(ShapeList<Shapes...>);
+using Cases = decltype(cases_of(ShapeFunctions{}));
 TYPED_TEST_SUITE(TransferOf, Cases);
 
 enum class Pairs { own_nodes, told };  ///< by targets
@@ -56,10 +55,18 @@ struct Sample {
       grid.cell[k] = std::ldexp(0.5, k);
       grid.inverse_cell[k] = std::ldexp(2., -k);
       half_size[k] = k == 2 ? 0.125 : 0.25;
-      const double in_cell = Shape::width == 2 ? 0.5 : 0;  // about the middle of a cell, or about a node
+      const double in_cell = 0.5 - Shape::bin_shift;  // about the middle of a cell, or about a node
       for (int l = 0; l < lanes; ++l) x[k][l] = grid.cell[k] * ((together ? 3 : 2 + l) + in_cell + 0.49 * draw(random));
     }
-    factors.compute(x, grid, {}, half_size);
+    if constexpr (Shape::has_domains) {
+      DomainEdges<Dim> edges;
+      for (int j = 0; j < Dim; ++j) {
+        for (int k = 0; k < Dim; ++k) edges.r[j][k] = splat(j == k ? half_size[k] : 0.1 * draw(random));
+      }
+      factors.compute(x, grid, {}, edges);
+    } else {
+      factors.compute(x, grid, {}, half_size);
+    }
     for (int l = 0; l < lanes; ++l) {
       for (const int step : T::steps) own.push_back({static_cast<std::uint16_t>(factors.base[l] + step), 0, 0});
     }
@@ -94,7 +101,7 @@ double difference(V a, V b, int components) {
   return worst;
 }
 
-/// Sums of at most 4 x 27 products of numbers up to 1 (weights) or 4 (slopes per metre).
+/// Sums of at most 4 x 64 products of numbers up to 1 (weights) or 4 (slopes per metre).
 constexpr double round_off = 1e-13;
 
 template <int Dim, class Shape>
@@ -147,7 +154,9 @@ TYPED_TEST(TransferOf, AreSumsOverNodes) {
 
 template <class Shape>
 class SeparableSumsOf : public testing::Test {};
-using Shapes = testing::Types<LinearShape, GimpShape, BsplineShape>;
+template <class... Members>
+testing::Types<Members...> types_of(ShapeList<Members...>);
+using Shapes = decltype(types_of(ShapeFunctions{}));
 TYPED_TEST_SUITE(SeparableSumsOf, Shapes);
 
 TYPED_TEST(SeparableSumsOf, Interpolate) {

@@ -140,7 +140,7 @@ TEST_P(ContactCornerFull, PassesAUniformStress) { expect_uniform(GetParam()); }
 std::vector<Corner> corners(const std::vector<std::tuple<int, double, double>>& places) {
   std::vector<Corner> all;
   for (const char* bodies : {"four blocks", "two on one", "one beside two", "block in an L"}) {
-    for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+    for (const char* shape_functions : all_shape_functions()) {
       for (const auto& [per_cell, x, y] : places) all.push_back({bodies, shape_functions, per_cell, x, y});
     }
   }
@@ -211,10 +211,9 @@ TEST_P(ContactCornerInSpaceFull, PassesAUniformStress) {
   EXPECT_LT(errors.away, 0.03);
   EXPECT_LT(errors.beside, 0.1);
 }
-INSTANTIATE_TEST_SUITE_P(Points, ContactCornerInSpaceFull,
-                         testing::Values(Cube{"linear", 0, 0, 0, 0}, Cube{"gimp", 0, 0, 0, 0}, Cube{"bspline", 0, 0, 0, 0},
-                                         Cube{"linear", 0.3, 0.5, 0, -0.5}, Cube{"gimp", 0.3, 0.5, 0, -0.5},
-                                         Cube{"bspline", 0.3, 0.5, 0, -0.5}));
+INSTANTIATE_TEST_SUITE_P(Points, ContactCornerInSpaceFull, testing::ValuesIn(for_all_shape_functions<Cube>([](const char* shape) {
+                           return std::vector<Cube>{{shape, 0, 0, 0, 0}, {shape, 0.3, 0.5, 0, -0.5}};
+                         })));
 
 }  // namespace
 }  // namespace crampon::test

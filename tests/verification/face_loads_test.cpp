@@ -8,9 +8,6 @@
 
 #include "crampon/core/error.hpp"
 #include "crampon/run/build_model.hpp"
-#include "crampon/shape/bspline.hpp"
-#include "crampon/shape/gimp.hpp"
-#include "crampon/shape/linear.hpp"
 #include "crampon/step/advance.hpp"
 #include "crampon/step/face_loads.hpp"
 #include "crampon/step/ledger.hpp"
@@ -56,9 +53,8 @@ Moment<Dim> step_once(const std::string& text, const Vec<Dim>& moved, const std:
 template <int Dim>
 Moment<Dim> step_once(const std::string& shape, const std::string& text, const Vec<Dim>& moved,
                       const std::array<double, stress_size<Dim>>& stress) {
-  if (shape == "linear") return step_once<Dim, LinearShape>(text, moved, stress);
-  if (shape == "gimp") return step_once<Dim, GimpShape>(text, moved, stress);
-  return step_once<Dim, BsplineShape>(text, moved, stress);
+  return with_shape(kind_of_word(shape),
+                    [&]<class Shape>(std::type_identity<Shape>) { return step_once<Dim, Shape>(text, moved, stress); });
 }
 
 std::string problem(const std::string& shape_functions, int dimension, const std::string& shape, int per_cell, const std::string& more,
@@ -159,7 +155,7 @@ TEST_P(Patch, NothingOfALoadIsLost) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Patch, testing::Combine(testing::Values("linear", "gimp", "bspline"), testing::Values(1, 2, 3)));
+INSTANTIATE_TEST_SUITE_P(Shapes, Patch, testing::Combine(testing::ValuesIn(all_shape_functions()), testing::Values(1, 2, 3)));
 
 std::string plate(const std::string& loads) {
   return fmt::format(R"toml(
@@ -221,7 +217,7 @@ TEST(Faces, AreNotOnSymmetryPlanes) {
 
 /// A half model, thinner than a load reaches, moves like the whole one.
 TEST(Faces, HalfIsWhole) {
-  for (const char* shape : {"linear", "gimp", "bspline"}) {
+  for (const char* shape : all_shape_functions()) {
     const auto run_to_end = [&](double low, const char* more) {
       const auto simulation = make(
           problem(shape, 2, fmt::format("{{ kind = \"rectangle\", low = [-3, {}], high = [3, 2.5] }}", low), 2, more), {"time.steps=40"});
@@ -317,11 +313,11 @@ TEST_P(ThickRing, HasTheStressesOfLame) {
   EXPECT_LT(std::fabs(e.balance), 0.03);
 }
 INSTANTIATE_TEST_SUITE_P(Rings, ThickRing,
-                         testing::Combine(testing::Values("linear", "gimp", "bspline"), testing::Values(0., 0.13), testing::Values(0.2)));
+                         testing::Combine(testing::ValuesIn(all_shape_functions()), testing::Values(0., 0.13), testing::Values(0.2)));
 
 /// Work of loads and what it becomes: a bar pulled at once, without damping.
 TEST(FaceWork, IsWhatTheBodyGains) {
-  for (const char* shape : {"linear", "gimp", "bspline"}) {
+  for (const char* shape : all_shape_functions()) {
     for (const char* update : {"musl", "usavg"}) {
       const auto simulation = make(problem(shape, 2, "{ kind = \"rectangle\", low = [-2, 0], high = [2, 10] }", 2,
                                            "[[load]]\nname = \"pull\"\nkind = \"traction\"\nface = \"y+\"\nvalue = [0, 100]\n"
@@ -340,7 +336,7 @@ TEST(FaceWork, IsWhatTheBodyGains) {
 
 /// Pressure on the ends of a bar that turns freely turns with it.
 TEST(FollowerPressure, TurnsWithTheBody) {
-  for (const char* shape : {"linear", "gimp", "bspline"}) {
+  for (const char* shape : all_shape_functions()) {
     const auto simulation = make(problem(shape, 2, "{ kind = \"rectangle\", low = [-6, -2.5], high = [6, 2.5] }", 2,
                                          "spin = 0.1\n[[load]]\nname = \"right\"\nkind = \"pressure\"\nface = \"x+\"\nvalue = 50\n"
                                          "[[load]]\nname = \"left\"\nkind = \"pressure\"\nface = \"x-\"\nvalue = 50\n",
@@ -363,7 +359,7 @@ TEST(FollowerPressure, TurnsWithTheBody) {
 
 /// Rubber blown up by suction all around: per area as it is, so that the Cauchy stress is the suction at any stretch.
 TEST(FollowerPressure, IsPerAreaAsItIs) {
-  for (const char* shape : {"gimp", "bspline"}) {
+  for (const char* shape : smooth_shape_functions()) {
     const auto simulation =
         make(problem(shape, 2, "{ kind = \"rectangle\", low = [-4, -5], high = [4, 5] }", 2,
                      "[[load]]\nname = \"suction\"\nkind = \"pressure\"\nvalue = { times = [0, 10], values = [0, -1e4] }\n", "end = 20"),

@@ -109,7 +109,7 @@ void expect_friction_times_slip(const Case& c) {
 
 std::vector<Case> collisions(unsigned first, unsigned count) {
   std::vector<Case> out;
-  for (const char* shape : {"linear", "gimp", "bspline"}) {
+  for (const char* shape : all_shape_functions()) {
     for (unsigned seed = first; seed < first + count; ++seed) out.push_back({shape, "usavg", seed});
   }
   for (unsigned seed = first; seed < first + count; ++seed) out.push_back({"linear", "musl", seed}), out.push_back({"gimp", "usl", seed});

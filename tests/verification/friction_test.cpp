@@ -131,7 +131,7 @@ TEST_P(Shapes, BlockThatComesToRestHeatsByItsEnergy) {
   EXPECT_NEAR(m.at_end("friction_loss"), energy, (s.shape_functions == "linear" ? 0.02 : 0.01) * energy);
   EXPECT_LT(std::fabs(m.v.back()), 0.001);
 }
-INSTANTIATE_TEST_SUITE_P(Friction, Shapes, testing::Values("linear", "gimp", "bspline"));
+INSTANTIATE_TEST_SUITE_P(Friction, Shapes, testing::ValuesIn(all_shape_functions()));
 
 /// A block of 16 x 8 mm with the stresses N across the floor and S along it, Pa, functions of time, everywhere: by tractions on its top and
 /// ends. Small particles: a traction acts at the particles of the face, and its distance from the face bends the foot.

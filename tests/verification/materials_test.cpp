@@ -141,7 +141,7 @@ TEST_P(Everything, IsTheSameToTheBitForAnyNumberOfThreads) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Shapes, Everything, testing::Values("linear", "gimp", "bspline"));
+INSTANTIATE_TEST_SUITE_P(Shapes, Everything, testing::ValuesIn(all_shape_functions()));
 
 /// Blocks in space that meet obliquely on a rigid floor: momentum across, energy, and the floor's reaction.
 TEST(MaterialsInSpace, CollideOnAFloor) {

@@ -134,7 +134,7 @@ TEST(Series, IsThatOfTheMatrices) {
 TEST(Series, LeavesATurnAlone) {
   for (const char* transfer : {"{ kind = \"flip\", pic = 0.05 }", "{ kind = \"flip\", pic = 1 }", "{ kind = \"xpic\", order = 2 }",
                                "{ kind = \"fmpm\", order = 4 }"}) {
-    for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+    for (const char* shape_functions : all_shape_functions()) {
       const auto simulation = make(input(fmt::format("shape_functions = \"{}\"\ntransfer = {}", shape_functions, transfer),
                                          disk("velocity = [{ expression = \"-0.02-0.6*y\", unit = \"m/s\" }, { expression = \"0.6*x\", "
                                               "unit = \"m/s\" }]"),
@@ -189,7 +189,7 @@ std::vector<Way> ways() {
     for (const char* stress_update : {"usavg", "musl", "usf", "usl"}) {
       const bool flip = std::string(transfer).find("flip") != std::string::npos || std::string(transfer).find("every") != std::string::npos;
       if (flip && std::string(stress_update) == "usl") continue;
-      for (const char* shape_functions : {"linear", "gimp", "bspline"}) out.push_back({transfer, stress_update, shape_functions});
+      for (const char* shape_functions : all_shape_functions()) out.push_back({transfer, stress_update, shape_functions});
     }
   }
   return out;
@@ -206,7 +206,7 @@ double kept(const std::string& transfer, const char* shape_functions) {
 }
 TEST(Series, LosesLessWithEveryTerm) {
   for (const char* kind : {"xpic", "fmpm"}) {
-    for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+    for (const char* shape_functions : all_shape_functions()) {
       double last = 0;
       for (int order = 1; order <= 8; ++order) {
         const double now = kept(fmt::format("{{ kind = \"{}\", order = {} }}", kind, order), shape_functions);
@@ -235,7 +235,7 @@ TEST(Series, OfOneTermIsPic) {
 /// Stuck everywhere is one body, also in every term; a mirror is the other half; prescribed nodes keep what is prescribed.
 TEST(Series, KeepsBondsMirrorsAndPrescribedNodes) {
   for (const char* transfer : {"{ kind = \"fmpm\", order = 3 }", "{ kind = \"xpic\", order = 3 }", "{ kind = \"flip\", pic = 0.05 }"}) {
-    for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+    for (const char* shape_functions : all_shape_functions()) {
       const std::string way = fmt::format("shape_functions = \"{}\"\ntransfer = {}\n", shape_functions, transfer);
       const std::string two =
           "[[body]]\nname = \"a\"\nmaterial = \"m\"\nshape = { kind = \"rectangle\", low = [-0.4, -0.3], high = [0.02, 0.3] }\n" +
@@ -315,7 +315,7 @@ TEST(ParticleDamping, BringsToRestWhatNodesDoNotSee) {
 /// Of the analytic cases of a body that moves with the face that holds it: every term but the first is zero, and it moves as a rigid body does.
 TEST(Series, LeavesABodyAloneThatMovesWithItsFace) {
   for (const char* kind : {"fmpm", "xpic"}) {
-    for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+    for (const char* shape_functions : all_shape_functions()) {
       const auto simulation =
           make(input(fmt::format("shape_functions = \"{}\"\ntransfer = {{ kind = \"{}\", order = 4 }}", shape_functions, kind),
                      "[[body]]\nname = \"b\"\nmaterial = \"m\"\nshape = { kind = \"rectangle\", low = [-0.3, -0.2], high = [0.3, 0.2] }\n"

@@ -125,7 +125,7 @@ enum class Which { all, met };
 std::vector<Layer> layers(Made made, Which which) {
   std::vector<Layer> some;
   for (const Press& press : presses) {
-    for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+    for (const char* shape_functions : all_shape_functions()) {
       for (const double degrees : {0., 30.}) {
         const Layer c{press, shape_functions, degrees, made};
         if (which == Which::all || is_met(c)) some.push_back(c);
@@ -139,20 +139,27 @@ std::string name_of(const testing::TestParamInfo<Layer>& of) {
   return fmt::format("{}_{}_{:.0f}", of.param.press.name, of.param.shape_functions, of.param.degrees);
 }
 
+/// Cells: the least height of a layer of which no node sees both faces.
+int least_height(const std::string& shape_functions) {
+  return static_cast<int>(std::fmax(4, std::ceil(2 * boxes_of(kind_of_word(shape_functions)).reach_of_sums() + 1)));
+}
+
 class PressedLayer : public testing::TestWithParam<Layer> {};
-TEST_P(PressedLayer, BearsItsForceAnywhereInACell) { expect_force(GetParam(), {4, 8}, 4, *this); }
+TEST_P(PressedLayer, BearsItsForceAnywhereInACell) { expect_force(GetParam(), {least_height(GetParam().shape_functions), 8}, 4, *this); }
 INSTANTIATE_TEST_SUITE_P(Shapes, PressedLayer, testing::ValuesIn(layers(Made::of_shape, Which::met)), name_of);
 INSTANTIATE_TEST_SUITE_P(Particles, PressedLayer, testing::ValuesIn(layers(Made::of_particles, Which::met)), name_of);
 
 class PressedLayerFull : public testing::TestWithParam<Layer> {};
-TEST_P(PressedLayerFull, BearsItsForceAnywhereInACell) { expect_force(GetParam(), {4, 8, 16}, 20, *this); }
+TEST_P(PressedLayerFull, BearsItsForceAnywhereInACell) {
+  expect_force(GetParam(), {least_height(GetParam().shape_functions), 8, 16}, 20, *this);
+}
 INSTANTIATE_TEST_SUITE_P(Shapes, PressedLayerFull, testing::ValuesIn(layers(Made::of_shape, Which::all)), name_of);
 INSTANTIATE_TEST_SUITE_P(Particles, PressedLayerFull, testing::ValuesIn(layers(Made::of_particles, Which::all)), name_of);
 
 /// The law of N03, whose force at 2 % is 3.1 % above that of the same modulus against the initial length, at .5 % .8 %.
 TEST(PressedLayerOfN03, BearsItsForce) {
   double worst = 0;
-  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+  for (const char* shape_functions : all_shape_functions()) {
     for (const double y : {0., 0.33, 0.71}) {
       const Forces f = press({presses[0], shape_functions, 0}, 8, {0.2, y}, "elastic_small_strain");
       for (const double force : {f.above, f.below}) {
@@ -167,7 +174,7 @@ TEST(PressedLayerOfN03, BearsItsForce) {
 /// Cells twice as long as high, and the reverse, under walls and plates: the layer and its force are the same.
 TEST(PressedLayerOnLongCells, BearsItsForce) {
   double worst = 0;
-  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+  for (const char* shape_functions : all_shape_functions()) {
     for (const double height : {0.5, 2.}) {
       for (const double y : {0.05, 0.55}) {
         Layer c{presses[0], shape_functions, 0};
@@ -186,11 +193,11 @@ TEST(PressedLayerOnLongCells, BearsItsForce) {
 /// In space: a block of 4 x 4 x 4 cells between boxes, and between walls.
 TEST(PressedLayerInSpace, BearsItsForce) {
   double worst = 0;
-  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+  for (const char* shape_functions : all_shape_functions()) {
     for (const bool plates : {true, false}) {
       for (const double place : {0.5}) {
         constexpr double height = 4, period = 2 * height, end = 5 * period;
-        const double strain = *shape_functions == 'l' ? 0.005 : 0.02;
+        const double strain = std::string(shape_functions) == "linear" ? 0.005 : 0.02;
         std::string text =
             text_in_space({.shape_functions = shape_functions, .end = end, .damping = std::numbers::pi / height}, {-4, -4, -4}, {8, 8, 12});
         text += fmt::format("[[body]]\nname = \"block\"\nmaterial = \"m\"\nshape = {}\n", box(0, 0, place, 4, 4, place + height));
@@ -281,9 +288,9 @@ void expect_bounce(const Sheet& c, const std::vector<double>& places, testing::T
 
 class ThinPlate : public testing::TestWithParam<Sheet> {};
 TEST_P(ThinPlate, ThrowsBackAsAThickOne) { expect_bounce(GetParam(), {0, 0.55}, *this); }
-INSTANTIATE_TEST_SUITE_P(Plates, ThinPlate,
-                         testing::Values(Sheet{"linear", 0}, Sheet{"gimp", 0}, Sheet{"bspline", 0}, Sheet{"linear", 30}, Sheet{"gimp", 30},
-                                         Sheet{"bspline", 30}),
+INSTANTIATE_TEST_SUITE_P(Plates, ThinPlate, testing::ValuesIn(for_all_shape_functions<Sheet>([](const char* shape) {
+                           return std::vector<Sheet>{{shape, 0}, {shape, 30}};
+                         })),
                          [](const auto& of) { return fmt::format("{}_{:.0f}", of.param.shape_functions, of.param.degrees); });
 
 /// The same in space: a cube of four cells on a box of a quarter and of three cells.
@@ -299,7 +306,7 @@ TEST(ThinPlateInSpace, ThrowsBackAsAThickOne) {
     return value(*simulation, "momentum_z") / (64 * speed);
   };
   double worst = 0;
-  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+  for (const char* shape_functions : all_shape_functions()) {
     const double thick = momentum(shape_functions, 3), thin = momentum(shape_functions, 0.25);
     EXPECT_GT(thick, 0.6) << shape_functions;
     EXPECT_NEAR(thin, thick, 0.03 * thick) << shape_functions;
@@ -314,16 +321,19 @@ TEST(ThinPlateInSpace, ThrowsBackAsAThickOne) {
 /// round-off: speeds of 1e-15 of those that the pressure would give in a step (.01 dt/cell), over 20 steps.
 TEST(UniformStress, RestsBetweenRigidFaces) {
   double worst = 0;
-  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+  for (const char* shape_functions : all_shape_functions()) {
+    // Higher than what a node sees up and down. Where nodes see both faces the layer does not rest exactly, with any shape function: three cells
+    // high it moves at 1e-4 (linear, uGIMP), 6e-4 (quadratic B-splines) and 8e-3 (cubic ones).
+    const double height = least_height(shape_functions);
     for (const double degrees : {0., 90., 180.}) {
       for (const Plane& shift : places(5)) {
-        const Placement at{degrees, {shift.first - 3, shift.second - 2}};
+        const Placement at{degrees, {shift.first - 3, shift.second - height / 2}};
         const Plane n = at.direction(0, 1);
         std::string text = text_of({.shape_functions = shape_functions, .reach = 10, .end = 6, .material = "elastic_small_strain"});
-        text += rectangle_body(at, Made::of_shape, 0, 0, 6, 4);
+        text += rectangle_body(at, Made::of_shape, 0, 0, 6, height);
         text += fmt::format("initial_stress = {{ kind = \"components\", xx = {:.17g}, yy = {:.17g}, xy = {:.17g} }}\n",
                             -0.01 * n.first * n.first, -0.01 * n.second * n.second, -0.01 * n.first * n.second);
-        text += fmt::format("[[rigid]]\nname = \"above\"\nshape = {}\n", at.shape(rectangle(-2, 4, 8, 6)));
+        text += fmt::format("[[rigid]]\nname = \"above\"\nshape = {}\n", at.shape(rectangle(-2, height, 8, height + 2)));
         text += fmt::format("[[wall]]\nname = \"below\"\npoint = {}\nnormal = {}\n", at.text_of_point(0, 0), at.text(n));
         const auto simulation = make(text);
         double most = 0;
@@ -340,7 +350,7 @@ TEST(UniformStress, RestsBetweenRigidFaces) {
 /// are solved together. Solved one after the other they made up to twelve times the energy. The bound is what the bounce of one body makes and loses, 2 %.
 TEST(StackOnAWall, MakesNoEnergy) {
   double worst = 0;
-  for (const char* shape_functions : {"linear", "gimp", "bspline", "cpdi"}) {
+  for (const char* shape_functions : all_shape_functions()) {
     for (const double height : {0.75, 1., 1.25, 1.5, 1.75, 2., 2.5}) {
       for (const char* parted : {"bodies", "crack"}) {
         std::string text = text_of({.shape_functions = shape_functions, .reach = 10, .end = 30, .material = "neo_hookean", .nu = 0.3});
@@ -373,7 +383,7 @@ TEST(StackOnAWall, MakesNoEnergy) {
 TEST(JoinedBlock, MeetsToolsAsOne) {
   const std::string tools[] = {disk(0, -2, 2.2), rectangle(-0.3, -3, 0.3, 0.13), rectangle(-5, -2, 5, 0.13)};
   double worst = 0;
-  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+  for (const char* shape_functions : all_shape_functions()) {
     for (const std::string& tool : tools) {
       const auto force = [&](const std::vector<std::string>& parts, bool half) {
         std::string text = text_of({.shape_functions = shape_functions, .reach = 10, .end = 12, .material = "neo_hookean", .nu = 0.3});

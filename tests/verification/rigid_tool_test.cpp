@@ -148,7 +148,7 @@ void expect_friction(const Dragged& c, int count, testing::Test& test) {
 std::vector<Dragged> dragged(std::initializer_list<const Tool*> tools, Made made = Made::of_shape) {
   std::vector<Dragged> all;
   for (const Tool* tool : tools)
-    for (const char* shape_functions : {"linear", "gimp", "bspline"})
+    for (const char* shape_functions : all_shape_functions())
       for (const double degrees : {0., 30.}) all.push_back({tool, shape_functions, degrees, made});
   return all;
 }
@@ -212,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(Tools, RoundedToolFull, testing::ValuesIn(dragged({&rou
 /// Without friction a round tool feels no torque about its centre, whatever the pressure and the grid: impulses act where their normal is that of the circle.
 TEST(FrictionlessRoundTool, FeelsNoTorque) {
   double worst = 0;
-  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+  for (const char* shape_functions : all_shape_functions()) {
     for (const double degrees : {0., 30.}) {
       for (const As as : {As::shape, As::wall}) {
         const Drag d = drag({&rounded, shape_functions, degrees}, {0.3, 0.2}, as, "\"frictionless\"");
@@ -271,7 +271,7 @@ TEST(ToolInSpaceFull, RubsWithItsFriction) {
     return d;
   };
   Range ratio, across, normal, along_cylinder;
-  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+  for (const char* shape_functions : all_shape_functions()) {
     for (const Solid& solid : solids) {
       const auto d = drawn(shape_functions, fmt::format("[[rigid]]\nshape = {}", solid.shape));
       EXPECT_GT(d.normal, 0) << shape_functions << ", " << solid.shape;

@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Holes, TurningHole, testing::Values(Turned{"linear"}, T
 /// quarter, round-off may decide which of two a column sees: B-splines before 24 sides at a radius of 6 cells read .02 to a side.)
 TEST(ManySidedTool, PushesStraight) {
   double worst = 0;
-  for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+  for (const char* shape_functions : all_shape_functions()) {
     for (const auto& [radius, sides] : {std::pair{12., 48}, std::pair{20., 30}, std::pair{40., 96}}) {
       for (const double turned : {0., 0.5}) {
         // The bottom of it, in the order of x, closed above.
@@ -229,7 +229,7 @@ TEST(DiskInShapeFull, RestsOnIt) {
   };
   double worst = 0, aside = 0;
   for (const std::string& shape : shapes) {
-    for (const char* shape_functions : {"linear", "gimp", "bspline"}) {
+    for (const char* shape_functions : all_shape_functions()) {
       constexpr double end = 300, settled = 250, g = 5e-4;
       const Placement at{0, {0.3, 0.4}};
       std::string text = text_of({.shape_functions = shape_functions, .reach = 18, .end = end, .damping = 0.12, .nu = 0.3});

@@ -104,7 +104,7 @@ TEST_P(TurningBar, IsNotStrainedByItsTurn) {
 std::vector<Body> bodies() {
   std::vector<Body> out;
   for (const double shift : {0., 0.23, 0.5, 0.81}) {
-    for (const char* shape_functions : {"linear", "gimp", "bspline", "cpdi"}) {
+    for (const char* shape_functions : all_shape_functions()) {
       for (const char* stress_update : {"usavg", "musl", "usf"}) {
         out.push_back({shape_functions, stress_update, 2, shift});
       }

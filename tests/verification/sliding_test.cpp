@@ -217,7 +217,7 @@ TEST_P(DeformableIncline, AcceleratesAsCoulombSays) {
   RecordProperty("error_percent", fmt::format("{:.3f}", 100 * (a - expected) / (g * std::sin(angle))));
   EXPECT_NEAR(a, expected, 0.003 * g * std::sin(angle));
 }
-INSTANTIATE_TEST_SUITE_P(Shapes, DeformableIncline, testing::Values("linear", "gimp", "bspline"));
+INSTANTIATE_TEST_SUITE_P(Shapes, DeformableIncline, testing::ValuesIn(all_shape_functions()));
 
 }  // namespace
 }  // namespace crampon::test

@@ -119,7 +119,7 @@ TEST_P(SymmetryReaction, IsTheRateOfMomentum) {
 
 std::vector<Reaction> reactions() {
   std::vector<Reaction> out;
-  for (const char* shape : {"linear", "gimp", "bspline"}) {
+  for (const char* shape : all_shape_functions()) {
     for (const int dim : {2, 3}) {
       for (const char* method : {"", "stress_update = \"usl\"", "stress_update = \"musl\"", "fixed_force = \"n13\""}) {
         if (dim == 2 || *method == 0) out.push_back({shape, dim, method});
@@ -204,13 +204,14 @@ TEST_P(HalfModel, OfTwoBodiesIsTheWhole) {
   RecordProperty("worst", fmt::format("{:.2e}", worst));
   // The gradient of the body with more volume nearly cancels at some nodes in space, and its direction is that of the rest: 1.7e-10.
   const bool cancels = GetParam().contact.find("more_volume") != std::string::npos;
-  EXPECT_LT(worst, cancels ? 1e-9 : 1e-10);
+  // Domains that stretch carry it on: 2.9e-8.
+  EXPECT_LT(worst, !cancels ? 1e-10 : has_domains(kind_of_word(GetParam().shape_functions)) ? 1e-7 : 1e-9);
 }
 
 std::vector<Bodies> bodies() {
   std::vector<Bodies> out;
   for (const int dim : {2, 3}) {
-    for (const char* shape : {"linear", "gimp", "bspline"}) {
+    for (const char* shape : all_shape_functions()) {
       for (const char* contact :
            {"normal = \"logistic_regression\"\ndefault = { law = \"coulomb\", friction = 0.3 }",
             "normal = \"linear_regression\"\ndefault = { law = \"coulomb\", friction = 0.3 }",
@@ -279,7 +280,7 @@ TEST_P(HalfCrack, IsTheWhole) {
 
 std::vector<Cracked> cracks() {
   std::vector<Cracked> out;
-  for (const char* shape : {"linear", "gimp", "bspline"}) {
+  for (const char* shape : all_shape_functions()) {
     for (const char* axis : {"x", "y"}) {
       for (const char* law : {"{ law = \"coulomb\", friction = 0.2 }", "\"frictionless\"", "\"stick\"",
                               "{ law = \"interface\", tangential = 1e6, tension = 1e7, compression = 1e7 }"}) {

@@ -77,27 +77,20 @@ PlaneInCells plane_in_cells(const Vec<Dim>& cell, const Vec<Dim>& n) {
   return plane;
 }
 
-EdgeMap EdgeMap::linear(HalfSizes half_sizes, Packing packing) { return make({2, 0, 0}, half_sizes, packing); }
-EdgeMap EdgeMap::gimp(HalfSizes half_sizes, Packing packing) { return make({2, 1, 0}, half_sizes, packing); }
-EdgeMap EdgeMap::cpdi(HalfSizes half_sizes, Packing packing) { return make({2, 0, 1}, half_sizes, packing); }
-EdgeMap EdgeMap::bspline(HalfSizes half_sizes, Packing packing) { return make({3, 0, 0}, half_sizes, packing); }
-
-EdgeMap EdgeMap::make(Boxes boxes, HalfSizes half_sizes, Packing packing) {
+EdgeMap::EdgeMap(ProfileBoxes boxes, HalfSizes half_sizes, Packing packing) {
   constexpr double along[] = {1};
   const double between[] = {std::sqrt(0.5), std::sqrt(0.5)};
-  EdgeMap map;
-  map.straight_.clear();
+  straight_.clear();
   double squares = 0;
   for (const double l : half_sizes) {
     squares += l * l;
-    map.straight_.push_back(tabulate(boxes, along, l, packing));
+    straight_.push_back(tabulate(boxes, along, l, packing));
   }
-  if (std::all_of(half_sizes.begin(), half_sizes.end(), [&](double l) { return l == half_sizes.front(); })) map.straight_.resize(1);
-  map.diagonal_ = tabulate(boxes, between, std::sqrt(squares / static_cast<double>(half_sizes.size())), packing);
-  return map;
+  if (std::all_of(half_sizes.begin(), half_sizes.end(), [&](double l) { return l == half_sizes.front(); })) straight_.resize(1);
+  diagonal_ = tabulate(boxes, between, std::sqrt(squares / static_cast<double>(half_sizes.size())), packing);
 }
 
-EdgeMap::Table EdgeMap::tabulate(Boxes boxes, std::span<const double> direction, double half_size, Packing packing) {
+EdgeMap::Table EdgeMap::tabulate(ProfileBoxes boxes, std::span<const double> direction, double half_size, Packing packing) {
   Profile seen, area;  // particles that end at the edge fill their own boxes: the area does without them
   for (const double m : direction) {
     for (int i = 0; i < boxes.cell; ++i) {

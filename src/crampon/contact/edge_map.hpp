@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crampon/core/vector.hpp"
+#include "crampon/shape/profile.hpp"
 
 namespace crampon {
 
@@ -36,10 +37,8 @@ class EdgeMap {
  public:
   /// Half sizes of particles in cells: one for all axes, or one for each.
   using HalfSizes = std::span<const double>;
-  static EdgeMap linear(HalfSizes half_sizes, Packing packing = Packing::layers);
-  static EdgeMap gimp(HalfSizes half_sizes, Packing packing = Packing::layers);
-  static EdgeMap cpdi(HalfSizes half_sizes, Packing packing = Packing::layers);
-  static EdgeMap bspline(HalfSizes half_sizes, Packing packing = Packing::layers);
+  /// boxes: of the shape function.
+  EdgeMap(ProfileBoxes boxes, HalfSizes half_sizes, Packing packing = Packing::layers);
 
   /// Knows no shape function: takes the mean position for the edge, and every area for zero.
   EdgeMap() = default;
@@ -54,12 +53,6 @@ class EdgeMap {
   double volume_at(double d, const PlaneInCells& plane = {}) const;
 
  private:
-  /// What shape functions are: boxes of one cell's width, folded with each other, and with one of the particle's or with its two ends.
-  struct Boxes {
-    int cell = 0;
-    int particle = 0;
-    int ends = 0;
-  };
   /// Columns over equal steps of d.
   struct Table {
     double low = -1, step = 2;
@@ -69,8 +62,7 @@ class EdgeMap {
     double find(const std::vector<double>& column, double value) const;
     double read(const std::vector<double>& column, double d) const;
   };
-  static EdgeMap make(Boxes boxes, HalfSizes half_sizes, Packing packing);
-  static Table tabulate(Boxes boxes, std::span<const double> direction, double half_size, Packing packing);
+  static Table tabulate(ProfileBoxes boxes, std::span<const double> direction, double half_size, Packing packing);
   template <class F>
   double mix(const PlaneInCells& plane, F value) const;
 

@@ -3,7 +3,6 @@
 
 namespace crampon {
 
-enum class ShapeFunctionKind { linear, gimp, bspline, cpdi };
 enum class StressUpdate { usl, musl, usf, usavg };
 /// With which nodal velocity particles move: with the one that strains them, or with that of N03 Eq. 30 (docs/theory/step.md, positions).
 enum class PositionUpdate { strain, n03 };

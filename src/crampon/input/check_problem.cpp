@@ -138,7 +138,7 @@ class ProblemChecker {
   /// Domains go with the nodes, and so must their particles.
   void check_domains() {
     const MethodInput& method = problem_.method;
-    if (method.shape_functions == ShapeFunctionKind::cpdi && method.positions == PositionUpdate::n03)
+    if (has_domains(method.shape_functions) && method.positions == PositionUpdate::n03)
       add(method, "positions", "positions by N03 Eq. 30 with domains that stretch",
           "Eq. 30 moves particles with a velocity that does not strain them", "leave positions out, or use shape_functions = \"gimp\"");
   }

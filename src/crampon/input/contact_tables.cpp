@@ -39,10 +39,10 @@ const Declaration<ContactInput>& contact_declaration() {
           .choice("material_detection", &ContactInput::material_detection, detections,
                   "how the gap between bodies is found: from mean positions about a node, from the edges of particles, from displacements "
                   "since the start (for bodies that start in touch), or by relative volume (N03)")
-          .quantity(
-              "position_cutoff", &ContactInput::position_cutoff, "1", Bounds::between(0, 2),
-              "faces touch when the mean positions about a node are this many cells apart (0.8: linear, gimp; 0.9: bspline); left out: "
-              "what the shape functions and the size of particles make of touching faces")
+          .quantity("position_cutoff", &ContactInput::position_cutoff, "1", Bounds::between(0, 2),
+                    "faces touch when the mean positions about a node are this many cells apart (0.8: linear, gimp; 0.9: bspline; 1: "
+                    "cubic_bspline); left out: "
+                    "what the shape functions and the size of particles make of touching faces")
           .choice("normal", &ContactInput::normal,
                   {{"logistic_regression", ContactNormal::logistic_regression},
                    {"linear_regression", ContactNormal::linear_regression},

@@ -13,6 +13,19 @@ namespace {
 constexpr Presence required = Presence::required;
 const Length up_to_three = Length::between(1, 3), two_or_three = Length::between(2, 3);
 
+std::vector<std::pair<std::string, ShapeFunctionKind>> words_of_shape_functions() {
+  std::vector<std::pair<std::string, ShapeFunctionKind>> words;
+  for_each_shape([&]<class Shape>(std::type_identity<Shape>) { words.emplace_back(Shape::name, kind_of<Shape>); });
+  return words;
+}
+std::string help_of_shape_functions() {
+  std::string help = "functions by which particles and nodes exchange";
+  for_each_shape([&]<class Shape>(std::type_identity<Shape>) {
+    help += fmt::format("{} `{}`: {}", kind_of<Shape> == ShapeFunctionKind{} ? ":" : ";", Shape::name, Shape::help);
+  });
+  return help;
+}
+
 const Declaration<GridInput>& grid_declaration() {
   static const auto d =
       Declaration<GridInput>("grid", "The background grid: a uniform Cartesian box that must hold all particles and cracks.")
@@ -66,12 +79,7 @@ const Declaration<MethodInput>& method_declaration() {
                   "particles move with the velocity that strains them, or with that of N03 Eq. 30, which tears bodies in tension")
           .choice("rotation", &MethodInput::rotation, {{"carried", RotationTransfer::carried}, {"n03", RotationTransfer::n03}},
                   "momenta of nodes carry the rotation of bodies, which then keep their angular momentum, or are those of N03 Eq. 26")
-          .choice("shape_functions", &MethodInput::shape_functions,
-                  {{"linear", ShapeFunctionKind::linear},
-                   {"gimp", ShapeFunctionKind::gimp},
-                   {"bspline", ShapeFunctionKind::bspline},
-                   {"cpdi", ShapeFunctionKind::cpdi}},
-                  "bilinear (trilinear), uGIMP, quadratic B-spline, or CPDI, whose domains stretch with the body")
+          .choice("shape_functions", &MethodInput::shape_functions, words_of_shape_functions(), help_of_shape_functions())
           .choice("crack_shape_functions", &MethodInput::crack_shape_functions,
                   {{"linear", CrackShapeFunctions::linear}, {"same", CrackShapeFunctions::same}},
                   "by what crack points are moved: linear functions, or B-splines where particles have them")

@@ -19,6 +19,7 @@
 #include "crampon/crack/traction/law.hpp"
 #include "crampon/geometry/shape.hpp"
 #include "crampon/material/material.hpp"
+#include "crampon/shape/registry.hpp"
 #include "crampon/step/transfer.hpp"
 
 namespace crampon {
@@ -52,7 +53,7 @@ struct MethodInput : Located {
   StressUpdate stress_update = StressUpdate::usavg;
   PositionUpdate positions = PositionUpdate::strain;
   RotationTransfer rotation = RotationTransfer::carried;
-  ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
+  ShapeFunctionKind shape_functions = kind_of<LinearShape>;
   CrackShapeFunctions crack_shape_functions = CrackShapeFunctions::linear;
   ValueFunction damping;           ///< grid damping kappa of N03 Eq. 4, 1/s, may vary in time
   ValueFunction particle_damping;  ///< the same of particles, 1/s, may vary in time

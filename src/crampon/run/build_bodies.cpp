@@ -110,16 +110,7 @@ class BodyBuilder {
   /// rests between faces anywhere with these (UniformStress.RestsBetweenRigidFaces).
   double uneven_edge(const BodyInput& body) const {
     if (!body.match_mass.value_or(false)) return 1;
-    switch (problem_.method.shape_functions) {
-      case ShapeFunctionKind::linear:
-        return 1.2;
-      case ShapeFunctionKind::bspline:
-        return 1.4;
-      case ShapeFunctionKind::gimp:
-      case ShapeFunctionKind::cpdi:
-        return 2.2;
-    }
-    throw std::logic_error("unknown shape functions");
+    return with_shape(problem_.method.shape_functions, []<class Shape>(std::type_identity<Shape>) { return double{Shape::uneven_edge}; });
   }
 
   std::uint16_t add_field(const std::string& name, double thickness, const std::array<int, Dim>& per_cell) {
@@ -129,20 +120,7 @@ class BodyBuilder {
     std::array<double, Dim> half_size;
     for (int k = 0; k < Dim; ++k) half_size[k] = 0.5 / per_cell[k];
     field.half_size = *std::max_element(half_size.begin(), half_size.end());
-    switch (problem_.method.shape_functions) {
-      case ShapeFunctionKind::linear:
-        field.edge = EdgeMap::linear(half_size);
-        break;
-      case ShapeFunctionKind::gimp:
-        field.edge = EdgeMap::gimp(half_size);
-        break;
-      case ShapeFunctionKind::cpdi:
-        field.edge = EdgeMap::cpdi(half_size);
-        break;
-      case ShapeFunctionKind::bspline:
-        field.edge = EdgeMap::bspline(half_size);
-        break;
-    }
+    field.edge = EdgeMap(boxes_of(problem_.method.shape_functions), half_size);
     out_.fields.push_back(std::move(field));
     return static_cast<std::uint16_t>(out_.fields.size() - 1);
   }

@@ -6,28 +6,11 @@
 #include <map>
 
 #include "crampon/run/find_faces.hpp"
-#include "crampon/shape/bspline.hpp"
-#include "crampon/shape/cpdi.hpp"
-#include "crampon/shape/gimp.hpp"
-#include "crampon/shape/linear.hpp"
+#include "crampon/shape/registry.hpp"
 
 namespace crampon {
 
 namespace {
-
-double stencil_reach(ShapeFunctionKind kind, double half_size) {
-  switch (kind) {
-    case ShapeFunctionKind::linear:
-      return LinearShape::reach(half_size);
-    case ShapeFunctionKind::gimp:
-      return GimpShape::reach(half_size);
-    case ShapeFunctionKind::cpdi:
-      return CpdiShape::reach(half_size);
-    case ShapeFunctionKind::bspline:
-      return BsplineShape::reach(half_size);
-  }
-  throw std::logic_error("unknown shape functions");
-}
 
 template <int Dim>
 class LoadBuilder {
@@ -131,7 +114,9 @@ class LoadBuilder {
     LoadedFaces<Dim>& faces = model_.faces;
     const double size = lattice.size(face.axis), cell = model_.grid.cell[face.axis];
     // Nodes at the face reach particles as deep as twice that, and the ramp behind them takes a cell.
-    const double reach = stencil_reach(problem_.method.shape_functions, 0.5 * size / cell);
+    const double half_size = 0.5 * size / cell;
+    const double reach = with_shape(problem_.method.shape_functions,
+                                    [half_size]<class Shape>(std::type_identity<Shape>) { return double{Shape::reach(half_size)}; });
     const double flat = (2 * reach + 1) * cell, end = flat + cell;
     FaceColumn column;
     column.load = static_cast<std::uint32_t>(model_.loads.size() - 1);

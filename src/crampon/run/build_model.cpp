@@ -221,7 +221,7 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
     packs += count;
   }
   Particles<Dim>& particles = state.particles;
-  const bool has_domains = model.shape_functions == ShapeFunctionKind::cpdi;
+  const bool has_domains = crampon::has_domains(model.shape_functions);
   particles.packs = packs;
   particles.history_size = history;
   particles.remembers_contact = model.remembers_contact();

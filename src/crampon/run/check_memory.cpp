@@ -67,7 +67,7 @@ void add_body(const Problem& problem, const Filling& filling, MemoryNeed& need) 
         static_cast<double>(filling.per_cell->size() == 1 ? filling.per_cell->front() : (*filling.per_cell)[static_cast<std::size_t>(k)]);
   const double cells = rough_measure(*filling.shape, dim, box_of(problem)) / cell_measure(problem);
   const int history = filling.law != nullptr ? filling.law->history_size(dim) : 0;
-  const bool has_domains = problem.method.shape_functions == ShapeFunctionKind::cpdi;
+  const bool has_domains = crampon::has_domains(problem.method.shape_functions);
   need.particles.push_back(cells * per_cell);
   need.bodies.push_back(cells * per_cell *
                             (dim == 2 ? bytes_of_particle<2>(history, has_domains) : bytes_of_particle<3>(history, has_domains)) +

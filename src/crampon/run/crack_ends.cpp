@@ -10,9 +10,9 @@ namespace crampon {
 
 namespace {
 
-/// Lines from particles to nodes reach this far beyond an edge, in cells: from a particle on it over the 1.5 cells of the widest stencil in
-/// both directions, to a crack that leaves the body at a slant.
-constexpr double reach = 4;
+/// Lines from particles to nodes reach this far beyond an edge, in cells: from a particle on it over the stencil in both directions, to a crack
+/// that leaves the body at a slant. stencil: cells from a particle to its furthest node.
+double reach_beyond_edges(double stencil) { return 4 * std::fmax(1, stencil / 1.5); }
 
 /// Where on [0, 1] something that holds at `a` and not at `b` ceases to hold.
 template <class Holds>
@@ -27,7 +27,10 @@ double border(double a, double b, Holds holds) {
 }  // namespace
 
 Material2D::Material2D(const Problem& problem, const BuiltBodies<2>& bodies, const Grid<2>& grid)
-    : cell_(std::fmax(grid.cell[0], grid.cell[1])) {
+    : cell_(std::fmax(grid.cell[0], grid.cell[1])),
+      reach_(reach_beyond_edges(with_shape(problem.method.shape_functions, []<class Shape>(std::type_identity<Shape>) {
+        return double{Shape::reach(largest_half_extent)};
+      }))) {
   std::vector<bool> listed(problem.bodies.size());
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
     if (problem.bodies[b].ignores_cracks) continue;
@@ -66,7 +69,7 @@ std::array<double, 2> extensions(const Crack<2>& crack, const Material2D& materi
     const auto free = [&](double distance) { return !material.at(end + out * distance); };
     if (!free(material.hair())) return 0.;
     double length = material.hair();
-    for (const double longest = reach * material.cell(), step = 0.05 * material.cell(); length < longest; length += step) {
+    for (const double longest = material.reach(), step = 0.05 * material.cell(); length < longest; length += step) {
       if (!free(length + step)) return border(length, length + step, free) - material.hair();
     }
     return length;

@@ -19,8 +19,9 @@ class Material2D {
 
   /// Edges belong to it, within 1e-9 of a cell.
   bool at(const Vec<2>& x) const;
-  double cell() const { return cell_; }         ///< longest side, m
-  double hair() const { return 1e-6 * cell_; }  ///< m, by which to look beside a crack
+  double cell() const { return cell_; }            ///< longest side, m
+  double reach() const { return reach_ * cell_; }  ///< of lines from particles to nodes beyond an edge, m
+  double hair() const { return 1e-6 * cell_; }     ///< m, by which to look beside a crack
 
  private:
   struct Box {
@@ -28,7 +29,7 @@ class Material2D {
   };
   std::vector<ShapePtr> shapes_;
   std::vector<Box> particles_;  ///< by low[0]
-  double cell_ = 0, widest_ = 0;
+  double cell_ = 0, reach_ = 0, widest_ = 0;
 };
 
 /// An end outside every body, or on the edge of one, is no tip: the crack goes on straight beyond it for all that ask what it cuts, as far

@@ -144,7 +144,8 @@ CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work) {
     Field normal{"traction_normal", "Pa", 1, {}}, shear{"traction_shear", "Pa", 1, {}}, damage{"damage", "1", 1, {}};
     for (std::size_t c = 0; c < state.cracks.size(); ++c) {
       for (std::size_t v = 0; v < state.cracks.list[c].plane.size(); ++v) {
-        const TractionHistory h = state.cracks.list[c].traction.history.empty() ? TractionHistory{} : state.cracks.list[c].traction.history[v];
+        const TractionHistory h =
+            state.cracks.list[c].traction.history.empty() ? TractionHistory{} : state.cracks.list[c].traction.history[v];
         normal.values.push_back(h.normal_traction);
         shear.values.push_back(h.shear_traction);
         damage.values.push_back(h.damage);

@@ -14,10 +14,7 @@
 #include "crampon/run/notes/notes.hpp"
 #include "crampon/run/quantities.hpp"
 #include "crampon/run/sample.hpp"
-#include "crampon/shape/bspline.hpp"
-#include "crampon/shape/cpdi.hpp"
-#include "crampon/shape/gimp.hpp"
-#include "crampon/shape/linear.hpp"
+#include "crampon/shape/registry.hpp"
 #include "crampon/step/advance.hpp"
 #include "crampon/step/face_loads.hpp"
 #include "crampon/step/ledger.hpp"
@@ -273,17 +270,9 @@ class Engine final : public Simulation {
 
 template <int Dim>
 std::unique_ptr<Simulation> create_in(const Problem& problem, int threads) {
-  switch (problem.method.shape_functions) {
-    case ShapeFunctionKind::linear:
-      return std::make_unique<Engine<Dim, LinearShape>>(problem, threads);
-    case ShapeFunctionKind::gimp:
-      return std::make_unique<Engine<Dim, GimpShape>>(problem, threads);
-    case ShapeFunctionKind::cpdi:
-      return std::make_unique<Engine<Dim, CpdiShape>>(problem, threads);
-    case ShapeFunctionKind::bspline:
-      return std::make_unique<Engine<Dim, BsplineShape>>(problem, threads);
-  }
-  throw std::logic_error("unknown shape functions");
+  return with_shape(problem.method.shape_functions, [&]<class Shape>(std::type_identity<Shape>) -> std::unique_ptr<Simulation> {
+    return std::make_unique<Engine<Dim, Shape>>(problem, threads);
+  });
 }
 
 }  // namespace

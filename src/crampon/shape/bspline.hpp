@@ -1,13 +1,19 @@
 #pragma once
 #include "crampon/core/pack.hpp"
+#include "crampon/shape/profile.hpp"
 
 namespace crampon {
 
 /// Quadratic B-spline, docs/theory/kinematics.md, shape functions (Steffen et al. 2008).
 struct BsplineShape {
+  static constexpr const char* name = "bspline";
+  static constexpr const char* help = "quadratic B-spline";
   static constexpr int width = 3;
+  static constexpr int below = 1;           ///< nodes below the nearest
   static constexpr double bin_shift = 0.5;  ///< particles are binned by nearest node
   static constexpr bool has_domains = false;
+  static constexpr ProfileBoxes boxes{.cell = 3};
+  static constexpr double uneven_edge = 1.4;
   /// Cells from a particle to the furthest node that it can reach.
   static constexpr double reach(double /*half_size*/) { return 1.5; }
 

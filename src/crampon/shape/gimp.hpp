@@ -1,13 +1,19 @@
 #pragma once
 #include "crampon/core/pack.hpp"
+#include "crampon/shape/profile.hpp"
 
 namespace crampon {
 
 /// uGIMP: linear functions averaged over an undeformed particle (docs/theory/kinematics.md, shape functions; Bardenhagen & Kober 2004).
 struct GimpShape {
+  static constexpr const char* name = "gimp";
+  static constexpr const char* help = "uGIMP, linear functions averaged over undeformed particles";
   static constexpr int width = 3;
+  static constexpr int below = 1;             ///< nodes below the nearest
   static constexpr double bin_shift = 0.5;    ///< particles are binned by nearest node
   static constexpr bool has_domains = false;  ///< that go with the nodes: CpdiShape
+  static constexpr ProfileBoxes boxes{.cell = 2, .particle = 1};
+  static constexpr double uneven_edge = 2.2;  ///< domains do not change with what their particles stand for
   /// Cells from a particle to the furthest node that it can reach.
   static constexpr double reach(double half_size) { return 1 + half_size; }
 

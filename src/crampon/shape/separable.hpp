@@ -10,6 +10,7 @@ template <class Shape>
 class SeparableSums {
   using T = Tile<3, Shape>;
   static constexpr int width = Shape::width, plane = width * width;
+  static_assert(width <= 4, "the loops below are unrolled up to four times, and in a plane up to sixteen times");
 
  public:
   explicit SeparableSums(const Stencil<3, Shape>& s) : s_(s) {}
@@ -22,10 +23,10 @@ class SeparableSums {
       read(lowest, k, sum);
       for (int l = l0; l < l1; ++l) {
         const Pack by_z = factor(2, k, l) * record[l];
-#pragma GCC unroll 3
+#pragma GCC unroll 4
         for (int j = 0; j < width; ++j) {
           const Pack by_yz = factor(1, j, l) * by_z;
-#pragma GCC unroll 3
+#pragma GCC unroll 4
           for (int i = 0; i < width; ++i) sum[j * width + i] = fused(factor(0, i, l), by_yz, sum[j * width + i]);
         }
       }
@@ -38,10 +39,10 @@ class SeparableSums {
     Pack* lowest = tiles + s_.of.base[l];
     for (int k = 0; k < width; ++k) {
       const Pack x = factor(2, k, l) * t[0], y = factor(2, k, l) * t[1], z = slope_factor(2, k, l) * t[2];
-#pragma GCC unroll 3
+#pragma GCC unroll 4
       for (int j = 0; j < width; ++j) {
         const Pack slope = factor(1, j, l) * x, value = fused(factor(1, j, l), z, slope_factor(1, j, l) * y);
-#pragma GCC unroll 3
+#pragma GCC unroll 4
         for (int i = 0; i < width; ++i) {
           Pack& f = lowest[step(i, j, k)];
           f = fused(slope_factor(0, i, l), slope, fused(factor(0, i, l), value, f));
@@ -54,14 +55,14 @@ class SeparableSums {
   void scatter_slopes(const Pack* t, Pack* tiles) const {
     const auto &N = s_.of.factors.N, &dN = s_.of.factors.dN;
     Pack* lowest = tiles + s_.of.base[0];
-#pragma GCC unroll 3
+#pragma GCC unroll 4
     for (int k = 0; k < width; ++k) {
-#pragma GCC unroll 3
+#pragma GCC unroll 4
       for (int j = 0; j < width; ++j) {
         const Pack yz = N[1][j] * N[2][k], y_slope = dN[1][j] * N[2][k], z_slope = N[1][j] * dN[2][k];
         const auto across = [&](int y, int z) { return fused(t[y], y_slope, t[z] * z_slope); };
         const Pack along[3] = {t[0] * yz, t[3] * yz, t[5] * yz}, rest[3] = {across(3, 5), across(1, 4), across(4, 2)};
-#pragma GCC unroll 3
+#pragma GCC unroll 4
         for (int i = 0; i < width; ++i) {
           const auto sum = [&](int c) { return fused(dN[0][i], along[c], N[0][i] * rest[c]); };
           lowest[step(i, j, k)] += lane_sums(sum(0), sum(1), sum(2));
@@ -74,13 +75,13 @@ class SeparableSums {
   template <class Value>
   Pack interpolate(int l, Value value) const {
     Pack of_space = splat(0.);
-#pragma GCC unroll 3
+#pragma GCC unroll 4
     for (int k = 0; k < width; ++k) {
       Pack of_plane = splat(0.);
-#pragma GCC unroll 3
+#pragma GCC unroll 4
       for (int j = 0; j < width; ++j) {
         Pack of_row = factor(0, 0, l) * value(step(0, j, k));
-#pragma GCC unroll 3
+#pragma GCC unroll 4
         for (int i = 1; i < width; ++i) of_row = fused(factor(0, i, l), value(step(i, j, k)), of_row);
         of_plane = j == 0 ? factor(1, j, l) * of_row : fused(factor(1, j, l), of_row, of_plane);
       }
@@ -108,13 +109,13 @@ class SeparableSums {
 
   template <class Factor, class Slope, class Value>
   static void slopes_of(Factor N, Slope dN, Value value, Pack* g) {
-#pragma GCC unroll 3
+#pragma GCC unroll 4
     for (int k = 0; k < width; ++k) {
       Pack of_plane = splat(0.), slope_x = of_plane, slope_y = of_plane;
-#pragma GCC unroll 3
+#pragma GCC unroll 4
       for (int j = 0; j < width; ++j) {
         Pack of_row = splat(0.), slope = of_row;
-#pragma GCC unroll 3
+#pragma GCC unroll 4
         for (int i = 0; i < width; ++i) {
           const Pack v = value(step(i, j, k));
           of_row = i == 0 ? N(0, i) * v : fused(N(0, i), v, of_row);
@@ -131,11 +132,11 @@ class SeparableSums {
   }
 
   static void read(const Pack* lowest, int k, Pack* sum) {
-#pragma GCC unroll 9
+#pragma GCC unroll 16
     for (int n = 0; n < plane; ++n) sum[n] = lowest[step(n % width, n / width, k)];
   }
   static void write(const Pack* sum, int k, Pack* lowest) {
-#pragma GCC unroll 9
+#pragma GCC unroll 16
     for (int n = 0; n < plane; ++n) lowest[step(n % width, n / width, k)] = sum[n];
   }
 

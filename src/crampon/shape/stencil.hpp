@@ -8,6 +8,7 @@
 #include "crampon/core/pack.hpp"
 #include "crampon/core/vector.hpp"
 #include "crampon/shape/domain.hpp"
+#include "crampon/shape/profile.hpp"
 #include "crampon/state/grid.hpp"
 
 namespace crampon {
@@ -17,8 +18,10 @@ template <int Dim, class Shape>
 struct Tile {
   static constexpr int drift = 1;
   /// Tile index of the block's first node.
-  static constexpr int offset = drift + (Shape::width == 3 ? 1 : 0);
-  static constexpr int side = block_side + (Shape::width == 2 ? 1 : 2) + 2 * drift;
+  static constexpr int offset = drift + Shape::below;
+  static constexpr int side = block_side + Shape::width - 1 + 2 * drift;
+  static_assert(offset <= block_side && side - offset <= 2 * block_side,
+                "a tile must end within the blocks next to its own (step/assemble.hpp)");
   static constexpr int nodes = power(side, Dim);
   static constexpr int stencil = power(Shape::width, Dim);
 
@@ -144,8 +147,7 @@ struct StencilFactors {
       const Pack g = (x[k] - grid.origin[k]) * grid.inverse_cell[k] + Shape::bin_shift;
       const Pack bin = lane_floor(g);
       f[k] = g - bin;
-      // bin: cell (width 2) or nearest node (width 3); the lowest node is one below the nearest.
-      const double lowest = T::offset - first_node[k] - (Shape::width == 3 ? 1 : 0);
+      const double lowest = T::offset - first_node[k] - Shape::below;
       index = fused(bin + lowest, splat(stride), index);
       stride *= T::side;
     }

@@ -44,7 +44,7 @@ class BlockAssignment {
       const std::array<int, 2> low{first[0] - 2, first[1] - 2}, high{first[0] + block_side + 1, first[1] + block_side + 1};
       if (view_.bins.any_in_box(low, high)) return true;
     }
-    if constexpr (Shape::width == 3) {
+    if constexpr (sees_beyond_faces<Shape>) {
       if (held_.any()) return true;
       for (const SymmetryPlane& plane : model_.symmetries) {
         const double g = (plane.at - model_.grid.origin[plane.axis]) * model_.grid.inverse_cell[plane.axis] - first[plane.axis];
@@ -109,10 +109,10 @@ class BlockAssignment {
       const auto cell = cell_of(x, l);
       if (!view_.bins.empty() && !view_.bins.facets_of_cell(cell[0], cell[1]).empty()) return true;
     }
-    if constexpr (Shape::width == 3) {
+    if constexpr (sees_beyond_faces<Shape>) {
       if (held_.any() && held_.near_cell(cell_of(x, l))) return true;
       for (const SymmetryPlane& p : model_.symmetries) {
-        if (std::fabs(x[p.axis][l] - p.at) < 1.5 * model_.grid.cell[p.axis]) return true;
+        if (std::fabs(x[p.axis][l] - p.at) < Shape::reach(largest_half_extent) * model_.grid.cell[p.axis]) return true;
       }
     }
     return false;
@@ -311,11 +311,11 @@ template <int Dim, class Shape>
 void assign_velocity_fields(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   const double dt = work.now.dt;
   if constexpr (Dim == 2) {
-    if (!state.cracks.empty()) view_cracks(state, work, model, Shape::width == 3 ? 1 : 0);
+    if (!state.cracks.empty()) view_cracks(state, work, model, cells_beyond<Shape>);
   }
   std::vector<std::vector<CrossingSums>> crossing(work.blocks.size());
   std::atomic<bool> fits{true};
-  const bool may_fold = Shape::width == 3 && !model.conditions.empty();
+  const bool may_fold = sees_beyond_faces<Shape> && !model.conditions.empty();
   if (!state.cracks.empty() || may_fold || model.fields.size() > 1) {
     parallel_for(work.blocks.size(), model.threads, [&](std::size_t b) {
       BlockLayers<Dim>& layers = work.nodes.layers[b];

@@ -44,66 +44,66 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const StepWork<Dim>& wo
         if (any) at_surface.push_back(pack);
       }
     }
-    for_packs<Dim, Shape>(
-        state, work, model, c, of == Of::all ? layers.contact_packs : at_surface,
-        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
-          const Material<Dim>& material = model.materials[run.material];
-          Pack F[Dim * Dim];
-          bool has_F = false;
-          for (int l = 0; l < lanes; ++l) {
-            const std::size_t p = std::size_t{pack} * lanes + l;
-            if (state.particles.is_padding(p)) continue;
-            if (of == Of::surface && is_deep(state, model, p)) continue;
-            for (int n = 0; n < T::stencil; ++n) {
-              if (stencil.weight(n, l) < least_weight) continue;
-              const PairTarget t = targets ? targets[l * T::stencil + n]
-                                           : PairTarget{static_cast<std::uint16_t>(stencil.of.lowest(l) + T::steps[n]),
-                                                        static_cast<std::uint8_t>(stencil.of.layer), 0};
-              IndexVector<Dim> node = unflatten<Dim>(t.node, T::side);
-              int local = 0;
-              bool inside = true;
-              for (int k = Dim - 1; k >= 0; --k) {
-                node[k] += first[k] - T::offset;
-                const int i = node[k] - own_first[k];
-                inside = inside && i >= 0 && i < block_side;
-                local = local * block_side + i;
-              }
-              if (!inside || !wanted[static_cast<std::size_t>(local)]) continue;
-              if (!has_F) {
-                PackView<Dim>(state, model, run.material, pack).deformation(F);
-                has_F = true;
-              }
-              CloudPoint<Dim> point;
-              point.layer = layer_here[t.layer];
-              point.particle = static_cast<std::uint32_t>(p);
-              point.mirrored = t.mirrored;
-              point.x = state.particles.position(p);
-              point.S = stencil.weight(n, l);
-              point.m = state.particles.mass(p) * point.S;
-              for (int k = 0; k < Dim; ++k) {
-                point.half_size[k] = material.half_size[k] * model.grid.cell[k];
-                for (int d = 0; d < Dim; ++d) point.F[k][d] = F[d * Dim + k][l];
-              }
-              if (!model.surface.empty()) {
-                const std::uint32_t id = state.particles.id[p];
-                const std::array<Vec<Dim>, Dim> of_start = since_start<Dim>(model, id, point.F);
-                for (int k = 0; k < Dim; ++k) point.to_surface += of_start[k] * model.surface[id][k];
-              }
-              for (int k = 0; k < Dim; ++k) {
-                const double x_i = model.grid.node_coordinate(k, node[k]);
-                if (t.mirrored >> k & 1u) {
-                  // The mirror stands midway between the node and the one beyond it for which the pair was.
-                  const int beyond = unflatten<Dim>(stencil.of.lowest(l) + T::steps[n], T::side)[k] + first[k] - T::offset;
-                  point.x[k] = model.grid.node_coordinate(k, beyond) - point.x[k];
-                  point.mirror(k);
-                } else {
-                  point.x[k] -= x_i;
-                }
-              }
-              points_[static_cast<std::size_t>(local)].push_back(point);
-            }
-          }
-        });
+    for_packs<Dim, Shape>(state, work, model, c, of == Of::all ? layers.contact_packs : at_surface,
+                          [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+                            const Material<Dim>& material = model.materials[run.material];
+                            Pack F[Dim * Dim];
+                            bool has_F = false;
+                            for (int l = 0; l < lanes; ++l) {
+                              const std::size_t p = std::size_t{pack} * lanes + l;
+                              if (state.particles.is_padding(p)) continue;
+                              if (of == Of::surface && is_deep(state, model, p)) continue;
+                              for (int n = 0; n < T::stencil; ++n) {
+                                if (stencil.weight(n, l) < least_weight) continue;
+                                const PairTarget t = targets ? targets[l * T::stencil + n]
+                                                             : PairTarget{static_cast<std::uint16_t>(stencil.of.lowest(l) + T::steps[n]),
+                                                                          static_cast<std::uint8_t>(stencil.of.layer), 0};
+                                IndexVector<Dim> node = unflatten<Dim>(t.node, T::side);
+                                int local = 0;
+                                bool inside = true;
+                                for (int k = Dim - 1; k >= 0; --k) {
+                                  node[k] += first[k] - T::offset;
+                                  const int i = node[k] - own_first[k];
+                                  inside = inside && i >= 0 && i < block_side;
+                                  local = local * block_side + i;
+                                }
+                                if (!inside || !wanted[static_cast<std::size_t>(local)]) continue;
+                                if (!has_F) {
+                                  PackView<Dim>(state, model, run.material, pack).deformation(F);
+                                  has_F = true;
+                                }
+                                CloudPoint<Dim> point;
+                                point.layer = layer_here[t.layer];
+                                point.particle = static_cast<std::uint32_t>(p);
+                                point.mirrored = t.mirrored;
+                                point.x = state.particles.position(p);
+                                point.S = stencil.weight(n, l);
+                                point.m = state.particles.mass(p) * point.S;
+                                for (int k = 0; k < Dim; ++k) {
+                                  point.half_size[k] = material.half_size[k] * model.grid.cell[k];
+                                  for (int d = 0; d < Dim; ++d) point.F[k][d] = F[d * Dim + k][l];
+                                }
+                                if (!model.surface.empty()) {
+                                  const std::uint32_t id = state.particles.id[p];
+                                  const std::array<Vec<Dim>, Dim> of_start = since_start<Dim>(model, id, point.F);
+                                  for (int k = 0; k < Dim; ++k) point.to_surface += of_start[k] * model.surface[id][k];
+                                }
+                                for (int k = 0; k < Dim; ++k) {
+                                  const double x_i = model.grid.node_coordinate(k, node[k]);
+                                  if (t.mirrored >> k & 1u) {
+                                    // The mirror stands midway between the node and the one beyond it for which the pair was.
+                                    const int beyond =
+                                        unflatten<Dim>(stencil.of.lowest(l) + T::steps[n], T::side)[k] + first[k] - T::offset;
+                                    point.x[k] = model.grid.node_coordinate(k, beyond) - point.x[k];
+                                    point.mirror(k);
+                                  } else {
+                                    point.x[k] -= x_i;
+                                  }
+                                }
+                                points_[static_cast<std::size_t>(local)].push_back(point);
+                              }
+                            }
+                          });
   }
 }
 

@@ -4,9 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "crampon/shape/bspline.hpp"
-#include "crampon/shape/gimp.hpp"
-#include "crampon/shape/linear.hpp"
 #include "crampon/step/assemble.hpp"
 #include "crampon/step/crack_surfaces.hpp"
 #include "crampon/step/instantiate.hpp"
@@ -158,7 +155,7 @@ class CarrierChoice {
       places.push_back(place);
     });
     std::vector<Candidate> seen;
-    constexpr std::size_t at_once = 9;
+    constexpr std::size_t at_once = most_nodes_in_plane;
     for (std::size_t first = 0; first < places.size(); first += at_once) {
       const std::size_t count = std::min(at_once, places.size() - first);
       const unsigned hidden = surfaces_.hidden(from, {places.data() + first, count});
@@ -230,7 +227,7 @@ template <int Dim, class Shape>
 void choose_carriers(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   if (state.cracks.empty() || !state.cracks.list.front().upper_carriers.empty()) return;
   if constexpr (Dim == 2) {  // the input admits cracks in 2D only
-    view_cracks(state, work, model, Shape::width == 3 ? 1 : 0);
+    view_cracks(state, work, model, cells_beyond<Shape>);
     choose_for_all(state, work, model);
   }
 }
@@ -310,13 +307,10 @@ CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 template void drop_lost_carriers<2>(State<2>&, StepWork<2>&);
 template void drop_lost_carriers<3>(State<3>&, StepWork<3>&);
-template void find_nodes_of_point<LinearShape>(const State<2>&, const StepWork<2>&, const Model<2>&, const std::vector<Carrier>&,
-                                               std::vector<NodeOfPoint>&);
-template void find_nodes_of_point<GimpShape>(const State<2>&, const StepWork<2>&, const Model<2>&, const std::vector<Carrier>&,
-                                             std::vector<NodeOfPoint>&);
-template void find_nodes_of_point<CpdiShape>(const State<2>&, const StepWork<2>&, const Model<2>&, const std::vector<Carrier>&,
-                                             std::vector<NodeOfPoint>&);
-template void find_nodes_of_point<BsplineShape>(const State<2>&, const StepWork<2>&, const Model<2>&, const std::vector<Carrier>&,
-                                                std::vector<NodeOfPoint>&);
+#define CRAMPON_INSTANTIATE(SHAPE)                                                                                            \
+  template void find_nodes_of_point<SHAPE>(const State<2>&, const StepWork<2>&, const Model<2>&, const std::vector<Carrier>&, \
+                                           std::vector<NodeOfPoint>&);
+CRAMPON_FOR_ALL_SHAPES_IN_PLANE(CRAMPON_INSTANTIATE)
+#undef CRAMPON_INSTANTIATE
 
 }  // namespace crampon

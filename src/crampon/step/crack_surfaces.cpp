@@ -7,26 +7,43 @@ namespace crampon {
 
 namespace {
 
-/// Weights along one axis of a point without size: linear, or quadratic B-spline. first: the lowest of `count` nodes.
+/// Weights along one axis of a point without size. first: the lowest of `count` nodes.
 struct AxisWeights {
-  int first = 0, count = 2;
-  std::array<double, 3> w{};
-
-  AxisWeights(double g, bool bspline) {
-    if (!bspline) {
-      first = static_cast<int>(std::floor(g));
-      w = {1 - (g - first), g - first, 0};
-      return;
-    }
-    first = static_cast<int>(std::floor(g - 0.5));
-    count = 3;
-    const double f = g - 0.5 - first;
-    w = {0.5 * (1 - f) * (1 - f), 0.75 - (f - 0.5) * (f - 0.5), 0.5 * f * f};
-  }
+  int first = 0, count = 0;
+  std::array<double, most_nodes_along_axis> w{};
 };
 
-bool by_bsplines(const Model<2>& model) {
-  return model.shape_functions == ShapeFunctionKind::bspline && model.crack_shape_functions == CrackShapeFunctions::same;
+AxisWeights linear_weights(double g) {
+  AxisWeights out;
+  out.first = static_cast<int>(std::floor(g));
+  out.count = 2;
+  out.w[0] = 1 - (g - out.first);
+  out.w[1] = g - out.first;
+  return out;
+}
+
+template <class Shape>
+AxisWeights weights_of(double g) {
+  AxisWeights out;
+  const double from_lowest = g + (Shape::bin_shift - Shape::below), first = std::floor(from_lowest);
+  Pack N[Shape::width], dN[Shape::width];
+  Shape::weights(splat(from_lowest - first), 0., 1., N, dN);
+  out.first = static_cast<int>(first);
+  out.count = Shape::width;
+  for (int n = 0; n < Shape::width; ++n) out.w[static_cast<std::size_t>(n)] = N[n][0];
+  return out;
+}
+
+/// g: place along the axis, in cells from the grid's origin. Functions of particles with a size are linear functions when the size is none.
+AxisWeights axis_weights(const Model<2>& model, double g) {
+  if (model.crack_shape_functions == CrackShapeFunctions::linear) return linear_weights(g);
+  return with_shape(model.shape_functions, [g]<class Shape>(std::type_identity<Shape>) {
+    if constexpr (Shape::boxes.of_points() && Shape::boxes.cell > 2) {
+      return weights_of<Shape>(g);
+    } else {
+      return linear_weights(g);
+    }
+  });
 }
 
 }  // namespace
@@ -50,9 +67,8 @@ Vec<2> vertex_normal(const Crack<2>& crack, std::size_t v) {
 ForNodes<NodeShare> nodes_around(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x) {
   const Grid<2>& grid = model.grid;
   ForNodes<NodeShare> out;
-  const bool bspline = by_bsplines(model);
-  const AxisWeights along[2] = {{(x[0] - grid.origin[0]) * grid.inverse_cell[0], bspline},
-                                {(x[1] - grid.origin[1]) * grid.inverse_cell[1], bspline}};
+  const AxisWeights along[2] = {axis_weights(model, (x[0] - grid.origin[0]) * grid.inverse_cell[0]),
+                                axis_weights(model, (x[1] - grid.origin[1]) * grid.inverse_cell[1])};
   for (int j = 0; j < along[1].count; ++j) {
     for (int i = 0; i < along[0].count; ++i) {
       const double S = along[0].w[i] * along[1].w[j];
@@ -94,7 +110,7 @@ unsigned CrackSurfaces::hidden(const Vec<2>& from, std::span<const Vec<2>> place
   static thread_local std::vector<FacetRef> room;
   const std::span<const FacetRef> facets = view_.bins.facets_of_box(low, high, room);
   unsigned hidden = 0;
-  std::array<Crossing, 9> crossings;
+  std::array<Crossing, most_nodes_in_plane> crossings;
   for (std::size_t f = 0; f < facets.size();) {
     const CrackId c = facets[f].crack;
     const std::size_t first = f;

@@ -10,7 +10,7 @@
 
 namespace crampon {
 
-/// Up to nine things, as many as a stencil has nodes.
+/// Some things, at most as many as the widest stencil has nodes.
 template <class T>
 class ForNodes {
  public:
@@ -25,7 +25,7 @@ class ForNodes {
   void push_back(const T& item) { list_[count_++] = item; }
 
  private:
-  std::array<T, 9> list_;
+  std::array<T, most_nodes_in_plane> list_;
   std::size_t count_ = 0;
 };
 
@@ -52,7 +52,7 @@ class CrackSurfaces {
   /// A hair beside a vertex of the plane, to the side of the unit vector `out`. On a mirror, where the path ends but not the crack, a little
   /// inside the body.
   Vec<2> beside(const Vec<2>& vertex, const Vec<2>& out) const;
-  /// Bit i is set when a crack lies between `from` and place i, of up to nine.
+  /// Bit i is set when a crack lies between `from` and place i, of up to most_nodes_in_plane.
   unsigned hidden(const Vec<2>& from, std::span<const Vec<2>> places) const;
 
  private:

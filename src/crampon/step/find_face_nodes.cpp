@@ -89,7 +89,7 @@ class FaceFinder {
       if (n == Vec<Dim>{}) continue;
       // Deeper in the material than the reach of its sums, and the face is nothing to the node.
       const double depth = view.distance + dot(mean, n);
-      const double reach = reach_of_sums(model_.shape_functions) + model_.fields[part.field].uneven_edge;
+      const double reach = boxes_of(model_.shape_functions).reach_of_sums() + model_.fields[part.field].uneven_edge;
       if (depth > reach_across(model_.grid, reach, n) * (1 - 1e-9)) continue;
       part.body = static_cast<std::uint16_t>(r);
       part.axis = 0;

@@ -3,6 +3,7 @@
 /// exchanges with the mirror node instead: what it would read beyond is v_beyond = flip v + offset.
 
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include "crampon/step/held_nodes.hpp"
@@ -40,6 +41,8 @@ class PairFolder {
       const auto axis = static_cast<std::size_t>(plane.axis);
       if (pair.mirrored >> plane.axis & 1u || !folds<Dim>(plane, x_p, pair.x_i)) continue;
       const int on = static_cast<int>(std::lround((plane.at - model_.grid.origin[axis]) * model_.grid.inverse_cell[axis]));
+      // Two beyond it see only particles on the plane itself, at the very end of the reach of a cubic spline, where a node has no weight.
+      if (std::abs(pair.node[axis] - on) > 1) continue;
       pair.mirror = pair.folded() ? nullptr : &plane;
       turn(pair, plane.axis, on);
       flip(pair, plane.axis, plane.condition, 0, 0);

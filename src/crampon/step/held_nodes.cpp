@@ -20,7 +20,7 @@ bool holds(const Model<Dim>& model, const FixedComponent& c) {
 
 template <int Dim, class Shape>
 HeldNodes<Dim, Shape>::HeldNodes(const StepWork<Dim>& work, const Model<Dim>& model, std::size_t block) {
-  if (Shape::width < 3) return;
+  if (!sees_beyond_faces<Shape>) return;
   const Block<Dim>& own = work.blocks.list[block];
   first_ = own.first_node();
   for (std::size_t k = 0; k < Dim; ++k) first_[k] -= T::offset;
@@ -47,11 +47,12 @@ HeldNodes<Dim, Shape>::HeldNodes(const StepWork<Dim>& work, const Model<Dim>& mo
     std::uint8_t& axes = axes_[static_cast<std::size_t>(c.node)];
     axes = static_cast<std::uint8_t>(axes | 1u << c.axis);
     if (axes != 1u << c.axis) continue;  // once for a node
-    // Stencils of the cells from two before the node to one after it may hold it.
+    // Stencils of the cells from this many before the node to one less after it may hold it.
+    constexpr int before = cells_beyond<Shape> + 1;
     const IndexVector<Dim> node = unflatten<Dim>(c.node, T::side);
-    for (int n = 0; n < power(4, Dim); ++n) {
-      IndexVector<Dim> cell = unflatten<Dim>(n, 4);
-      for (std::size_t k = 0; k < Dim; ++k) cell[k] += node[k] - 2 + first_[k];
+    for (int n = 0; n < power(2 * before, Dim); ++n) {
+      IndexVector<Dim> cell = unflatten<Dim>(n, 2 * before);
+      for (std::size_t k = 0; k < Dim; ++k) cell[k] += node[k] - before + first_[k];
       const int at = tile_node(cell);
       if (at >= 0) near_[static_cast<std::size_t>(at)] = 1;
     }

@@ -1,18 +1,12 @@
 #pragma once
-/// The shape functions that the step is compiled for, in 2D and 3D.
+/// The shape functions that the step is compiled for, in 2D and 3D: all of the list.
 
-#include "crampon/shape/bspline.hpp"
-#include "crampon/shape/cpdi.hpp"
-#include "crampon/shape/gimp.hpp"
-#include "crampon/shape/linear.hpp"
+#include "crampon/shape/registry.hpp"
+
+#define CRAMPON_IN_PLANE_AND_SPACE(SHAPE, MACRO) MACRO(2, SHAPE) MACRO(3, SHAPE)
+#define CRAMPON_IN_PLANE(SHAPE, MACRO) MACRO(SHAPE)
 
 /// Expands MACRO(Dim, Shape) for all of them.
-#define CRAMPON_FOR_ALL_SHAPES(MACRO) \
-  MACRO(2, LinearShape)               \
-  MACRO(2, GimpShape)                 \
-  MACRO(2, CpdiShape)                 \
-  MACRO(2, BsplineShape)              \
-  MACRO(3, LinearShape)               \
-  MACRO(3, GimpShape)                 \
-  MACRO(3, CpdiShape)                 \
-  MACRO(3, BsplineShape)
+#define CRAMPON_FOR_ALL_SHAPES(MACRO) CRAMPON_SHAPES(CRAMPON_IN_PLANE_AND_SPACE, MACRO)
+/// Expands MACRO(Shape) for all of them.
+#define CRAMPON_FOR_ALL_SHAPES_IN_PLANE(MACRO) CRAMPON_SHAPES(CRAMPON_IN_PLANE, MACRO)

@@ -73,7 +73,7 @@ void account_mirrored_forces(State<Dim>& state, StepWork<Dim>& work, const Model
   const std::vector<Vec<Dim>>& load_values = work.prescribed.loads;
   const Vec<Dim>& body_force = work.prescribed.body_force;
   const double damping = work.prescribed.damping;
-  if (Shape::width < 3 || !work.blocks.list[b].has_particles()) return;
+  if (!sees_beyond_faces<Shape> || !work.blocks.list[b].has_particles()) return;
   using T = Tile<Dim, Shape>;
   const std::vector<std::uint32_t> packs = folded_packs<Dim, Shape>(state, work, b);
   if (packs.empty()) return;

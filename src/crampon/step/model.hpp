@@ -17,6 +17,7 @@
 #include "crampon/crack/traction/law.hpp"
 #include "crampon/geometry/shape.hpp"
 #include "crampon/material/material_law.hpp"
+#include "crampon/shape/registry.hpp"
 #include "crampon/shape/stencil.hpp"
 #include "crampon/state/grid.hpp"
 #include "crampon/state/layers.hpp"
@@ -129,7 +130,7 @@ struct Model {
   StressUpdate stress_update = StressUpdate::usavg;
   PositionUpdate positions = PositionUpdate::strain;
   RotationTransfer rotation = RotationTransfer::carried;
-  ShapeFunctionKind shape_functions = ShapeFunctionKind::linear;
+  ShapeFunctionKind shape_functions = kind_of<LinearShape>;
   CrackShapeFunctions crack_shape_functions = CrackShapeFunctions::linear;
   BoundaryOrder boundary_order = BoundaryOrder::contact_first;
   FixedForce fixed_force = FixedForce::incremental;

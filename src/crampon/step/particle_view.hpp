@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "crampon/step/model.hpp"
 #include "crampon/state/state.hpp"
+#include "crampon/step/model.hpp"
 
 namespace crampon {
 

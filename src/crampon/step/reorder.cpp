@@ -332,8 +332,7 @@ void find_touched_box(StepWork<Dim>& work, const Model<Dim>& model, std::size_t 
   const auto first = block.first_node();
   for (int k = 0; k < Dim; ++k) {
     const auto lower_node = [&](double x) {
-      return std::floor((x - model.grid.origin[k]) * model.grid.inverse_cell[k] + Shape::bin_shift) - (Shape::width == 3 ? 1 : 0) -
-             first[k] + T::offset;
+      return std::floor((x - model.grid.origin[k]) * model.grid.inverse_cell[k] + Shape::bin_shift) - Shape::below - first[k] + T::offset;
     };
     double low = lower_node(lowest[k]), high = lower_node(highest[k]) + Shape::width;
     if (!(low >= 0 && high <= T::side)) {

@@ -78,15 +78,12 @@ double reach_across(const Grid<Dim>& grid, double reach, const Vec<Dim>& n) {
   return reach * sum;
 }
 
-/// How far from a node, in cells, material ends that the node sees to the full: functions of points, and of domains that meet without gaps.
-inline double reach_of_sums(ShapeFunctionKind kind) { return kind == ShapeFunctionKind::bspline ? 1.5 : 1.; }
-
 /// No node further than this from a face, m, belongs to a contact there.
 template <int Dim>
 double longest_reach(const Model<Dim>& model) {
   double square = 0;
   for (int k = 0; k < Dim; ++k) square += model.grid.cell[k] * model.grid.cell[k];
-  return (reach_of_sums(model.shape_functions) + 0.5) * std::sqrt(square);
+  return (boxes_of(model.shape_functions).reach_of_sums() + 0.5) * std::sqrt(square);
 }
 
 /// Is x, m, nearer than `reach`, m, to the face of a body that others meet by its shape, or inside?

@@ -12,20 +12,6 @@ namespace crampon {
 
 namespace {
 
-/// How far from a particle nodes feel it, in cells along an axis.
-double reach_of(ShapeFunctionKind kind, double half_size) {
-  switch (kind) {
-    case ShapeFunctionKind::linear:
-      return 1;
-    case ShapeFunctionKind::gimp:
-    case ShapeFunctionKind::cpdi:
-      return 1 + half_size;
-    case ShapeFunctionKind::bspline:
-      return 1.5;
-  }
-  return 0;
-}
-
 /// Nodes from low to high along each axis.
 template <int Dim>
 struct NodeBox {
@@ -57,7 +43,8 @@ NodeBox<Dim> nodes_about(const Start<Dim>& start, const typename BodySpace<Dim>:
   NodeBox<Dim> box;
   for (int k = 0; k < Dim; ++k) {
     const double at = (particle.x[k] - grid.origin[k]) * grid.inverse_cell[k];
-    const double reach = reach_of(start.model.shape_functions, particle.half[k] * grid.inverse_cell[k]) - 1e-9;  // no weight at its end
+    const double reach =
+        boxes_of(start.model.shape_functions).reach(particle.half[k] * grid.inverse_cell[k]) - 1e-9;  // no weight at its end
     box.low[k] = static_cast<int>(std::ceil(at - reach));
     box.high[k] = static_cast<int>(std::floor(at + reach));
   }

@@ -54,7 +54,7 @@ bool parts_some_pair(const Start<2>& start, const Crack<2>& crack) {
   for (const Vec<2>& v : crack.plane) {
     for (std::size_t k = 0; k < 2; ++k) low[k] = std::fmin(low[k], v[k]), high[k] = std::fmax(high[k], v[k]);
   }
-  const int reach = start.model.shape_functions == ShapeFunctionKind::linear ? 1 : 2;
+  const int reach = with_shape(start.model.shape_functions, []<class Shape>(std::type_identity<Shape>) { return cells_beyond<Shape> + 1; });
   for (std::size_t b = 0; b < start.problem.bodies.size(); ++b) {
     if (start.model.is_whole(start.bodies[b].field())) continue;
     for (const auto& p : start.bodies[b].particles()) {

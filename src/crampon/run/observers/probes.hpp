@@ -37,8 +37,7 @@ class Probes final : public Observer<Dim> {
         for (int k = 0; k < Dim; ++k) d[k] -= in.point[static_cast<std::size_t>(k)];
         // Of particles equally near, the one made first.
         const double distance = norm(d);
-        if (distance < best || (distance == best && state.particles.id[p] < nearest))
-          best = distance, nearest = state.particles.id[p];
+        if (distance < best || (distance == best && state.particles.id[p] < nearest)) best = distance, nearest = state.particles.id[p];
       }
       probes_.push_back({in.name, in.quantity});
       run.observed.probes.push_back(nearest);
