@@ -4,8 +4,8 @@
 set -euo pipefail
 
 build=(g++ cmake ninja-build ccache pkg-config libtomlplusplus-dev libfmt-dev libcli11-dev libmuparser-dev libudunits2-dev
-       libpng-dev libdeflate-dev libcairo2-dev nlohmann-json3-dev libeigen3-dev)
-test=(libgtest-dev librapidcheck-dev libboost-dev python3 python3-numpy)
+       libdeflate-dev libcairo2-dev nlohmann-json3-dev libeigen3-dev)
+test=(libgtest-dev librapidcheck-dev libboost-dev libpng-dev python3 python3-numpy)
 lint=(clang-format-14 clang-tidy-14 git)
 tsan=(clang-14 libomp-14-dev)
 count=(valgrind python3)

@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-LEVELS = [["core"], ["geometry"], ["state", "shape", "material", "contact", "crack"], ["step"], ["input", "output"], ["run"], ["apps"]]
+LEVELS = [["core"], ["geometry"], ["state", "shape", "material", "contact", "crack"], ["step"], ["input", "output"], ["run", "picture"], ["apps"]]
 LEVEL = {room: level for level, rooms in enumerate(LEVELS) for room in rooms}
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]crampon/([^/">]+)/[^">]+[">]', re.M)
 

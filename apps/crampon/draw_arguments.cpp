@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "crampon/core/units.hpp"
-#include "crampon/output/draw.hpp"
+#include "crampon/picture/draw.hpp"
 
 namespace crampon::app {
 

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "crampon/output/draw.hpp"
 #include "crampon/output/results_folder.hpp"
 #include "crampon/output/run_record.hpp"
+#include "crampon/picture/draw.hpp"
 #include "draw_arguments.hpp"
 #include "draw_moments.hpp"
 #include "draw_plots.hpp"

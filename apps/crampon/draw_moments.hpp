@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "crampon/input/problem.hpp"
-#include "crampon/output/draw.hpp"
 #include "crampon/output/results_folder.hpp"
+#include "crampon/picture/draw.hpp"
 
 namespace crampon::app {
 

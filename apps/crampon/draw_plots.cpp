@@ -10,9 +10,9 @@
 
 #include "crampon/core/formula.hpp"
 #include "crampon/core/units.hpp"
-#include "crampon/output/display_scale.hpp"
-#include "crampon/output/plot.hpp"
 #include "crampon/output/quantity.hpp"
+#include "crampon/picture/display_scale.hpp"
+#include "crampon/picture/plot.hpp"
 #include "draw_arguments.hpp"
 #include "draw_moments.hpp"
 

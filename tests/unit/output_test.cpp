@@ -19,13 +19,13 @@
 
 #include <gtest/gtest.h>
 
-#include "crampon/output/draw.hpp"
 #include "crampon/output/file.hpp"
 #include "crampon/output/history.hpp"
 #include "crampon/output/picture_mark.hpp"
 #include "crampon/output/results_folder.hpp"
 #include "crampon/output/results_hash.hpp"
 #include "crampon/output/run_record.hpp"
+#include "crampon/picture/draw.hpp"
 #include "output_cases.hpp"
 
 namespace crampon {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "crampon/output/display_scale.hpp"
-#include "crampon/output/draw.hpp"
 #include "crampon/output/history.hpp"
-#include "crampon/output/plot.hpp"
+#include "crampon/picture/display_scale.hpp"
+#include "crampon/picture/draw.hpp"
+#include "crampon/picture/plot.hpp"
 #include "output_cases.hpp"
 #include "png_pixels.hpp"
 

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crampon/output/palette.hpp"
+#include "crampon/picture/palette.hpp"
 
 namespace crampon::test {
 

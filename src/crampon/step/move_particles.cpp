@@ -91,7 +91,8 @@ void finish_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& 
   const bool corrects = further != 0;
   constexpr int position_pack = 0, width = motion_packs<Dim>;
   Pack low = splat(1e300), high = splat(-1e300), fastest = splat(0.), check = splat(0.);
-  const auto move = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
+  const auto move = [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&)
+      __attribute__((always_inline)) {
     Pack lowest = low, highest = high, speed = fastest, bad = check;  // in registers
     for (int l = 0; l < lanes; ++l) {
       const std::size_t p = std::size_t{pack} * lanes + l;

@@ -1,4 +1,4 @@
-#include "crampon/output/paint_bodies.hpp"
+#include "crampon/picture/paint_bodies.hpp"
 
 #include <algorithm>
 #include <cmath>

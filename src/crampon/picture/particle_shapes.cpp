@@ -1,4 +1,4 @@
-#include "crampon/output/particle_shapes.hpp"
+#include "crampon/picture/particle_shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

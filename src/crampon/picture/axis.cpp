@@ -1,4 +1,4 @@
-#include "crampon/output/axis.hpp"
+#include "crampon/picture/axis.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "crampon/output/draw.hpp"
-#include "crampon/output/particle_shapes.hpp"
+#include "crampon/picture/draw.hpp"
+#include "crampon/picture/particle_shapes.hpp"
 
 namespace crampon {
 

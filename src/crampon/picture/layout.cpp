@@ -1,4 +1,4 @@
-#include "crampon/output/picture_layout.hpp"
+#include "crampon/picture/layout.hpp"
 
 #include <algorithm>
 #include <cmath>

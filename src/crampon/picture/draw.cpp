@@ -1,4 +1,4 @@
-#include "crampon/output/draw.hpp"
+#include "crampon/picture/draw.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "crampon/output/canvas.hpp"
-#include "crampon/output/display_scale.hpp"
-#include "crampon/output/paint_bodies.hpp"
-#include "crampon/output/picture_layout.hpp"
-#include "crampon/output/picture_scene.hpp"
+#include "crampon/picture/canvas.hpp"
+#include "crampon/picture/display_scale.hpp"
+#include "crampon/picture/layout.hpp"
+#include "crampon/picture/paint_bodies.hpp"
+#include "crampon/picture/scene.hpp"
 
 namespace crampon {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "crampon/output/axis.hpp"
-#include "crampon/output/canvas.hpp"
-#include "crampon/output/draw.hpp"
+#include "crampon/picture/axis.hpp"
+#include "crampon/picture/canvas.hpp"
+#include "crampon/picture/draw.hpp"
 
 namespace crampon {
 

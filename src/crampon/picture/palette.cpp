@@ -1,4 +1,4 @@
-#include "crampon/output/palette.hpp"
+#include "crampon/picture/palette.hpp"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "crampon/output/history.hpp"
-#include "crampon/output/picture_box.hpp"
+#include "crampon/picture/box.hpp"
 
 namespace crampon {
 

@@ -1,4 +1,4 @@
-#include "crampon/output/canvas.hpp"
+#include "crampon/picture/canvas.hpp"
 
 #include <algorithm>
 #include <cmath>

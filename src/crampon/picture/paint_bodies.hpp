@@ -1,8 +1,8 @@
 #pragma once
 /// Bodies in the plot area of a picture. For the drawing files of this room only.
 
-#include "crampon/output/canvas.hpp"
-#include "crampon/output/picture_scene.hpp"
+#include "crampon/picture/canvas.hpp"
+#include "crampon/picture/scene.hpp"
 
 namespace crampon {
 

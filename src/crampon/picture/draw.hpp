@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "crampon/output/frame.hpp"
-#include "crampon/output/palette.hpp"
-#include "crampon/output/picture_box.hpp"
 #include "crampon/output/quantity.hpp"
 #include "crampon/output/rigid_shape.hpp"
+#include "crampon/picture/box.hpp"
+#include "crampon/picture/palette.hpp"
 
 namespace crampon {
 

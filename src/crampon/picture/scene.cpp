@@ -1,4 +1,4 @@
-#include "crampon/output/picture_scene.hpp"
+#include "crampon/picture/scene.hpp"
 
 #include <algorithm>
 #include <cmath>

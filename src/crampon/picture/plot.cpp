@@ -1,4 +1,4 @@
-#include "crampon/output/plot.hpp"
+#include "crampon/picture/plot.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "crampon/output/axis.hpp"
-#include "crampon/output/canvas.hpp"
-#include "crampon/output/display_scale.hpp"
+#include "crampon/picture/axis.hpp"
+#include "crampon/picture/canvas.hpp"
+#include "crampon/picture/display_scale.hpp"
 
 namespace crampon {
 namespace {

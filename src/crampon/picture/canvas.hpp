@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "crampon/output/axis.hpp"
-#include "crampon/output/palette.hpp"
-#include "crampon/output/picture_box.hpp"
+#include "crampon/picture/axis.hpp"
+#include "crampon/picture/box.hpp"
+#include "crampon/picture/palette.hpp"
 
 namespace crampon {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "crampon/output/display_scale.hpp"
+#include "crampon/picture/display_scale.hpp"
 
 namespace crampon {
 

@@ -1,4 +1,4 @@
-#include "crampon/output/display_scale.hpp"
+#include "crampon/picture/display_scale.hpp"
 
 #include <algorithm>
 #include <array>
