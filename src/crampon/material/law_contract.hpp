@@ -118,14 +118,14 @@ struct MaterialLawContract {
                     law_contract::has_report<Law, 3, StressState::three_dimensional>,
                 "a material law needs: template <int Dim, StressState S> PackReport report(const Pack* stress, const Pack* history) const");
   static constexpr bool knows_present_wave_speed = [] {
-    if constexpr (!law_contract::says_whether_wave_speed_changes<Law>)
-      return true;
-    else if constexpr (!Law::wave_speed_changes)
-      return true;
-    else
-      return law_contract::has_present_wave_speed<Law, 2, StressState::plane_strain> &&
-             law_contract::has_present_wave_speed<Law, 2, StressState::plane_stress> &&
-             law_contract::has_present_wave_speed<Law, 3, StressState::three_dimensional>;
+    if constexpr (law_contract::says_whether_wave_speed_changes<Law>) {
+      if constexpr (Law::wave_speed_changes) {
+        return law_contract::has_present_wave_speed<Law, 2, StressState::plane_strain> &&
+               law_contract::has_present_wave_speed<Law, 2, StressState::plane_stress> &&
+               law_contract::has_present_wave_speed<Law, 3, StressState::three_dimensional>;
+      }
+    }
+    return true;
   }();
   static_assert(
       knows_present_wave_speed,

@@ -65,8 +65,8 @@ struct HasFittingStencil {
 /// CompleteShapeFunction<S>::value is true, or does not compile.
 template <class S>
 struct CompleteShapeFunction : std::true_type {
-  static_assert(sizeof(HasShapeMembers<S>) > 0);
-  static_assert(sizeof(HasFittingStencil<S>) > 0);
+  static_assert(std::is_empty_v<HasShapeMembers<S>>);
+  static_assert(std::is_empty_v<HasFittingStencil<S>>);
 };
 
 /// Has particles before a face or a plane of nodes that see a node beyond it.

@@ -83,8 +83,8 @@ struct State {
   Observed observed;
 
   State() = default;
-  State(State&&) = default;
-  State& operator=(State&&) = default;
+  State(State&&) noexcept = default;
+  State& operator=(State&&) noexcept = default;
   State(const State&) = delete;  // of a million particles: nobody wants it by accident
   State& operator=(const State&) = delete;
 

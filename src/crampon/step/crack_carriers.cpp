@@ -5,9 +5,9 @@
 #include <tuple>
 
 #include "crampon/step/assemble.hpp"
-#include "crampon/step/crack_surfaces.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/packs.hpp"
+#include "crampon/step/point_fields.hpp"
 #include "crampon/step/view_cracks.hpp"
 
 namespace crampon {
@@ -112,7 +112,7 @@ struct LinearFit {
 class CarrierChoice {
  public:
   CarrierChoice(const State<2>& state, const StepWork<2>& work, const Model<2>& model)
-      : state_(state), work_(work), model_(model), surfaces_(work, model), map_(state, model) {}
+      : state_(state), work_(work), model_(model), surroundings_(work, model), map_(state, model) {}
 
   /// Of the side of `from`, which is x or a hair beside it.
   std::vector<Carrier> carriers(const Vec<2>& x, const Vec<2>& from) const {
@@ -158,7 +158,7 @@ class CarrierChoice {
     constexpr std::size_t at_once = most_nodes_in_plane;
     for (std::size_t first = 0; first < places.size(); first += at_once) {
       const std::size_t count = std::min(at_once, places.size() - first);
-      const unsigned hidden = surfaces_.hidden(from, {places.data() + first, count});
+      const unsigned hidden = surroundings_.hidden(from, {places.data() + first, count});
       for (std::size_t i = 0; i < count; ++i) {
         if (!(hidden >> i & 1u)) seen.push_back(found[first + i]);
       }
@@ -194,7 +194,7 @@ class CarrierChoice {
   bool seen_in_mirror(const SymmetryPlane& mirror, const Vec<2>& from, Vec<2> place) const {
     const auto k = static_cast<std::size_t>(mirror.axis);
     place[k] = 2 * mirror.at - place[k];
-    return surfaces_.hidden(from, {&place, 1}) == 0;
+    return surroundings_.hidden(from, {&place, 1}) == 0;
   }
   Vec<2> in_cells(const Vec<2>& d) const { return {{d[0] * model_.grid.inverse_cell[0], d[1] * model_.grid.inverse_cell[1]}}; }
   static bool within(const Vec<2>& y, double reach) { return std::fabs(y[0]) < reach && std::fabs(y[1]) < reach; }
@@ -202,21 +202,21 @@ class CarrierChoice {
   const State<2>& state_;
   const StepWork<2>& work_;
   const Model<2>& model_;
-  CrackSurfaces surfaces_;
+  PointFields surroundings_;
   ParticleMap map_;
 };
 
 void choose_for_all(State<2>& state, StepWork<2>& work, const Model<2>& model) {
   const CarrierChoice choice(state, work, model);
-  const CrackSurfaces surfaces(work, model);
+  const PointFields surroundings(work, model);
   for (Crack<2>& crack : state.cracks.list) {
     crack.upper_carriers.resize(crack.plane.size());
     crack.lower_carriers.resize(crack.plane.size());
     for (std::size_t v = 0; v < crack.plane.size(); ++v) {
       const Vec<2>& x = crack.plane[v];
       const Vec<2> down = vertex_normal(crack, v);
-      crack.upper_carriers[v] = choice.carriers(x, surfaces.beside(x, -down));
-      crack.lower_carriers[v] = choice.carriers(x, surfaces.beside(x, down));
+      crack.upper_carriers[v] = choice.carriers(x, surroundings.beside(x, -down));
+      crack.lower_carriers[v] = choice.carriers(x, surroundings.beside(x, down));
     }
   }
 }

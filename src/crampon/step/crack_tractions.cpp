@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "crampon/step/crack_carriers.hpp"
-#include "crampon/step/crack_surfaces.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/move_cracks.hpp"
+#include "crampon/step/point_fields.hpp"
 
 namespace crampon {
 

@@ -5,7 +5,7 @@
 
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/crack_carriers.hpp"
-#include "crampon/step/crack_surfaces.hpp"
+#include "crampon/step/point_fields.hpp"
 
 namespace crampon {
 
@@ -15,7 +15,7 @@ namespace {
 std::optional<Vec<2>> plane_velocity(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x) {
   Vec<2> sum{};
   double weight = 0;
-  for (const NodeShare& node : nodes_around(work, model, x)) {
+  for (const PointNode& node : PointFields(work, model).nodes(x)) {
     const BlockLayers<2>& layers = work.nodes.layers[node.block];
     Pack p = splat(0.);
     for (std::size_t l = 0; l < layers.node.size(); ++l) {

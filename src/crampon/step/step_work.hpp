@@ -164,8 +164,8 @@ struct StepWork {
   std::vector<Phase> phases;  ///< wall time since the start
 
   StepWork() = default;
-  StepWork(StepWork&&) = default;
-  StepWork& operator=(StepWork&&) = default;
+  StepWork(StepWork&&) noexcept = default;
+  StepWork& operator=(StepWork&&) noexcept = default;
   StepWork(const StepWork&) = delete;  // paths of cracks are views into it
   StepWork& operator=(const StepWork&) = delete;
 };
