@@ -274,7 +274,7 @@ TYPED_TEST(ContactSolve, ConsistentSchemeOfOnePair) {
   EXPECT_GT(opening_task_6, 300);
 }
 
-/// A closed contact keeps its state while its gap reads no more than rules.hold; beyond it, it is one that was open.
+/// A closed contact keeps its state while its gap reads no more than rules.stays_closed_within; beyond it, it is one that was open.
 TYPED_TEST(ContactSolve, AHeldContactLetsGoBeyondItsBound) {
   constexpr int Dim = TypeParam::value;
   Random random(7);
@@ -289,11 +289,11 @@ TYPED_TEST(ContactSolve, AHeldContactLetsGoBeyondItsBound) {
     ContactRules rules;
     rules.dt = dt;
     rules.task = random.pick(2) == 0 ? ContactTask::two : ContactTask::four;
-    rules.hold = random.draw(0.1, 0.4) * h;
+    rules.stays_closed_within = random.draw(0.1, 0.4) * h;
     // The faces close a quarter of what parts them: apart, unless they are held.
     const Vec<Dim> w = node.before(pair);
     const bool held = random.pick(2) == 0;
-    pair.gap = rules.hold * (held ? random.draw(0.1, 1) : random.draw(1.01, 3));
+    pair.gap = rules.stays_closed_within * (held ? random.draw(0.1, 1) : random.draw(1.01, 3));
     auto& b = node.on(pair.b);
     const double closing = -0.25 * pair.gap / dt;
     b.p += pair.n * (b.m * (closing - dot(w, pair.n)));

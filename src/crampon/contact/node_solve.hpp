@@ -118,7 +118,7 @@ struct ContactRules {
   bool literal = false;
   /// consistent: a contact that was closed stays so while its gap reads no more than this, m. Without the bound a node that holds next to
   /// no mass, which one step drives through any gap, would go on pushing on a body that is not there.
-  double hold = HUGE_VAL;
+  double stays_closed_within = HUGE_VAL;
   bool volume_for_cracks = false, volume_for_materials = false;  ///< literal: detection by relative volume (N03 section 2.2)
   double volume_separated = 0.9, volume_contact = 1.1;
   bool require_approach = true;

@@ -77,7 +77,7 @@ template <int Dim>
 Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
   const double w_n = dot(w, pair.n);
   const Vec<Dim> D_t = (w - pair.n * w_n) * m;
-  const bool held = pair.previous != ContactState::open && pair.gap <= rules.hold;
+  const bool held = pair.previous != ContactState::open && pair.gap <= rules.stays_closed_within;
   const double gap = held ? std::fmin(pair.gap, 0.) : pair.gap;
   const double bound = -std::fmax(gap, 0.) / rules.dt;
   Response<Dim> out;

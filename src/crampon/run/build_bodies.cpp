@@ -98,7 +98,7 @@ class BodyBuilder {
     while (field < out_.fields.size() && out_.fields[field].name != name) ++field;
     if (field == out_.fields.size()) {
       add_field(name, Dim == 2 ? body.thickness : 1., out_.per_cell.back());
-      out_.fields.back().whole = body.ignores_cracks;
+      out_.fields.back().ignores_cracks = body.ignores_cracks;
     }
     MaterialField& of_body = out_.fields[field];
     of_body.uneven_edge = std::max(of_body.uneven_edge, uneven_edge(body) * of_body.half_size);
@@ -133,7 +133,7 @@ class BodyBuilder {
     body.velocity = velocity;
     body.spin = spin;
     body.field = add_field(name, thickness, per_cell);
-    out_.fields.back().rigid = out_.fields.back().whole = true;
+    out_.fields.back().rigid = out_.fields.back().ignores_cracks = true;
     out_.fields.back().body = static_cast<int>(out_.rigid_bodies.size());
     out_.rigid_bodies.push_back(std::move(body));
     return out_.rigid_bodies.back();

@@ -81,7 +81,7 @@ template <int Dim>
 void find_bonds(Model<Dim>& model) {
   const auto bonded = [&](std::uint16_t a, std::uint16_t b) {
     return model.contact.pairs == ContactPairs::joint && std::holds_alternative<BondedContact>(model.law_between(a, b)) &&
-           !model.is_whole(a) && !model.is_whole(b);
+           !model.ignores_cracks(a) && !model.ignores_cracks(b);
   };
   const auto count = static_cast<std::uint16_t>(model.fields.size());
   for (std::uint16_t a = 0; a < count; ++a) {

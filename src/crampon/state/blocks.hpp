@@ -21,11 +21,11 @@ struct TileBox {
     return false;
   }
   void include(const IndexVector<Dim>& node) {
-    const bool fresh = empty();
+    const bool was_empty = empty();
     for (int k = 0; k < Dim; ++k) {
       const auto i = static_cast<std::int16_t>(node[k]);
-      low[k] = fresh ? i : std::min(low[k], i);
-      high[k] = fresh ? static_cast<std::int16_t>(i + 1) : std::max<std::int16_t>(high[k], i + 1);
+      low[k] = was_empty ? i : std::min(low[k], i);
+      high[k] = was_empty ? static_cast<std::int16_t>(i + 1) : std::max<std::int16_t>(high[k], i + 1);
     }
   }
 };

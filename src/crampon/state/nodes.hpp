@@ -86,9 +86,9 @@ struct BlockLayers {
   std::vector<std::uint8_t> run_layer;            ///< per run of the block: layer of pairs that cross nothing; empty: 0
   std::vector<Layer> node{Layer{}};               ///< layers present at the block's own nodes, ascending
   std::vector<CrackId> tile_cracks, node_cracks;  ///< cracks crossed by pairs of the tile / at own nodes
-  std::vector<PairTarget> targets;                ///< [special pack][lane][stencil node]
+  std::vector<PairTarget> targets;                ///< [pack with targets][lane][stencil node]
   PairOffsets<Dim> offsets;
-  std::vector<std::int32_t> special;             ///< per pack of the block: index of its targets, or -1; empty: none special
+  std::vector<std::int32_t> targets_of_pack;     ///< per pack of the block: which of `targets` are its, or -1; empty: none has any
   std::uint32_t tile_begin = 0, node_begin = 0;  ///< first tile / nodal slot
   std::uint32_t crossing_tile_begin = 0, crossing_node_begin = 0;
   std::vector<std::uint8_t> shared;          ///< per own node: holds several fields or is near a rigid face; empty: none

@@ -23,7 +23,7 @@ Vec<Dim> relative_velocity(const ContactGroup<Dim>* groups, const ContactPair<Di
 }
 
 template <int Dim>
-void settle_pairs(const ContactGroup<Dim>* groups, ContactPair<Dim>* pairs, int pair_count) {
+void keep_relative_velocities(const ContactGroup<Dim>* groups, ContactPair<Dim>* pairs, int pair_count) {
   for (int q = 0; q < pair_count; ++q) pairs[q].w_settled = relative_velocity(groups, pairs[q]);
 }
 
@@ -137,7 +137,7 @@ void adjust_contact(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mo
           book_reaction(ledger, static_cast<std::uint16_t>(groups[g].body), state.rigid[static_cast<std::size_t>(groups[g].body)].start,
                         x_i, groups[g].dp * (-1 / dt));
       }
-      if (task == ContactTask::two) settle_pairs(groups, pairs, pair_count);
+      if (task == ContactTask::two) keep_relative_velocities(groups, pairs, pair_count);
       if (task == ContactTask::six) find_drift(groups, pairs, pair_count);
       for (int q = 0; q < pair_count && task == ContactTask::four; ++q) {
         pairs[q].rubbing = rubbing(pairs[q]);

@@ -161,7 +161,7 @@ std::vector<Stage<Dim>> stages() {
              run_where<Dim, contact_first, impose_start_momenta<Dim>>, find_velocities<Dim>>(
           "contact and boundaries", always, {pairs | momenta | prescribed, none, momenta | velocities | books}),
       blocks<Dim, weigh_face_loads<Dim, Shape>>("face loads", If::faces_are_loaded, {motion | stress | fields, velocities, faces}),
-      once<Dim, settle_face_loads<Dim>>("face loads", If::faces_are_loaded, {faces | prescribed, none, faces}),
+      once<Dim, find_face_tractions<Dim>>("face loads", If::faces_are_loaded, {faces | prescribed, none, faces}),
 
       // Tasks 2 and 3: stress of each pack is updated and its forces follow (USF, USAVG), or the forces alone (USL, MUSL).
       blocks<Dim, update_stress_and_project_forces<Dim, Shape>>("stress and forces", If::stress_goes_first,

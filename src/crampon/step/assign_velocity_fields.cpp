@@ -74,7 +74,7 @@ class BlockAssignment {
     const auto first = block_.first_node();
     const std::uint32_t first_pack = state_.order.runs[block_.first_run].first_pack;
     const std::uint32_t end_pack = state_.order.runs[block_.end_run - 1].end_pack;
-    layers_.special.assign(end_pack - first_pack, -1);
+    layers_.targets_of_pack.assign(end_pack - first_pack, -1);
     std::int32_t count = 0;
     StencilFactors<Dim, Shape> stencil;
     const Run* run = &state_.order.runs[block_.first_run];
@@ -82,18 +82,18 @@ class BlockAssignment {
       while (k >= run->end_pack) ++run;
       Pack x[Dim];
       state_.particles.pack_positions(k, x);
-      bool special = false;
-      for (int l = 0; l < lanes && !special; ++l) special = near_something(x, l);
-      if (!special) continue;
+      bool near = false;
+      for (int l = 0; l < lanes && !near; ++l) near = near_something(x, l);
+      if (!near) continue;
       compute_factors<Dim, Shape>(state_.particles, model_.grid, first, model_.materials[run->material].half_size, k, stencil);
-      layers_.special[k - first_pack] = count++;
+      layers_.targets_of_pack[k - first_pack] = count++;
       field_ = model_.materials[run->material].field;
       rigid_ = model_.is_rigid(field_);
-      sees_cracks_ = !model_.is_whole(field_);
+      sees_cracks_ = !model_.ignores_cracks(field_);
       own_layer_ = layers_.run_layer[static_cast<std::size_t>(run - &state_.order.runs[block_.first_run])];
       for (int l = 0; l < lanes; ++l) assign(stencil, x, l, state_.particles.is_padding(std::size_t{k} * lanes + l));
     }
-    if (count == 0) layers_.special.clear();
+    if (count == 0) layers_.targets_of_pack.clear();
   }
 
  private:
@@ -301,7 +301,7 @@ void reset_layers(BlockLayers<Dim>& layers) {
   layers.run_layer.clear();
   layers.tile_cracks.clear();
   layers.targets.clear();
-  layers.special.clear();
+  layers.targets_of_pack.clear();
   layers.offsets.clear();
 }
 

@@ -95,7 +95,7 @@ void evaluate_conditions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim
       }
       const Value& v = values[f.condition][f.component];
       f.active = v.active;
-      f.fresh = v.active && !was_prescribed;
+      f.newly_prescribed = v.active && !was_prescribed;
       f.v_old = v.v_old;
       f.v_new = v.v_new;
       if (v.active && !v.everywhere) {
@@ -138,8 +138,8 @@ void prescribe_by_rigid(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>
         f.condition = body.condition;
         f.component = static_cast<std::uint16_t>(q);
         f.active = true;
-        f.fresh = !std::binary_search(state.conditions.prescribed_by_rigid.begin(), state.conditions.prescribed_by_rigid.end(),
-                                      model.grid.node_number(index) * Dim + axis);
+        f.newly_prescribed = !std::binary_search(state.conditions.prescribed_by_rigid.begin(), state.conditions.prescribed_by_rigid.end(),
+                                                 model.grid.node_number(index) * Dim + axis);
         f.v_old = v_old[axis];
         f.v_new = v_new[axis];
         fixed.push_back(f);
@@ -186,7 +186,7 @@ void impose_start_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::siz
     scratch.p_int[kept] = p[c.axis];
     const bool symmetry = model.conditions[c.condition].symmetry;
     // A component prescribed for the first time starts from what the body does (docs/theory/step.md, boundary values).
-    if (!symmetry && c.fresh && model.fixed_force == FixedForce::incremental) return;
+    if (!symmetry && c.newly_prescribed && model.fixed_force == FixedForce::incremental) return;
     p[c.axis] = symmetry ? 0. : p[Dim] * c.v_old;
   });
 }
@@ -220,7 +220,7 @@ void impose_forces(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) 
     if (symmetry) return;
     scratch.ledger.boundary_work += reaction * 0.5 * (c.v_old + c.v_new) * dt;
     // A sudden start is an inelastic impact: what the condition gives and the body does not get.
-    if (c.fresh && model.fixed_force == FixedForce::incremental && p[Dim] > 0)
+    if (c.newly_prescribed && model.fixed_force == FixedForce::incremental && p[Dim] > 0)
       scratch.ledger.contact_loss += reaction * 0.5 * (c.v_old - p[c.axis] / p[Dim]) * dt;
   });
 }

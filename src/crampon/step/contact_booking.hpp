@@ -25,7 +25,7 @@ ContactRules contact_rules(const Model<Dim>& model, ContactTask task, double dt)
   rules.volume_contact = contact.volume_contact;
   rules.require_approach = contact.require_approach;
   rules.sequential = contact.pairs == ContactPairs::sequential;
-  rules.hold = 0.25 * model.grid.smallest_cell();  // well above what gaps err by (docs/theory/contact.md, detection)
+  rules.stays_closed_within = 0.25 * model.grid.smallest_cell();  // well above what gaps err by (docs/theory/contact.md, detection)
   return rules;
 }
 

@@ -20,7 +20,7 @@ int find_groups(const BlockLayers<Dim>& layers, const Model<Dim>& model, const s
     for (std::size_t j = 0; j < i; ++j) {
       const std::uint16_t a = layer(j).field, b = layer(i).field;
       if (reduced[i] != reduced[j] || chain[i] == chain[j]) continue;
-      const bool bonded = joins(model, model.law_between(a, b)) && !model.is_whole(a) && !model.is_whole(b);
+      const bool bonded = joins(model, model.law_between(a, b)) && !model.ignores_cracks(a) && !model.ignores_cracks(b);
       if (a != b && !bonded) continue;
       const int low = std::min(chain[i], chain[j]), high = std::max(chain[i], chain[j]);
       for (std::size_t k = 0; k <= i; ++k) {

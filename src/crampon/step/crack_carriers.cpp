@@ -28,7 +28,7 @@ class ParticleMap {
  public:
   ParticleMap(const State<2>& state, const Model<2>& model) : grid_(model.grid) {
     for (const Run& run : state.order.runs) {
-      if (model.is_whole(model.materials[run.material].field)) continue;  // no crack parts it
+      if (model.ignores_cracks(model.materials[run.material].field)) continue;  // no crack parts it
       for (std::size_t p = std::size_t{run.first_pack} * lanes; p < std::size_t{run.end_pack} * lanes; ++p) {
         if (state.particles.is_padding(p)) continue;
         list_.push_back({cell_of(state.particles.position(p)), state.particles.id[p], static_cast<std::uint32_t>(p),

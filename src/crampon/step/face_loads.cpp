@@ -221,7 +221,7 @@ Vec<Dim> traction_on(const Load<Dim>& load, const FaceColumn& column, const Vec<
 }  // namespace
 
 template <int Dim>
-void settle_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+void find_face_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   const std::vector<Vec<Dim>>& load_values = work.prescribed.loads;
   FaceStates<Dim>& s = work.faces;
   for (std::size_t c = 0; c < model.faces.columns.size(); ++c) {
@@ -295,9 +295,9 @@ std::vector<Vec<Dim>> total_loads(const State<Dim>& state, const StepWork<Dim>& 
   return total;
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                        \
-  template void start_face_loads<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);  \
-  template void settle_face_loads<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&); \
+#define CRAMPON_INSTANTIATE(DIM)                                                          \
+  template void start_face_loads<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);    \
+  template void find_face_tractions<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&); \
   template std::vector<Vec<DIM>> total_loads<DIM>(const State<DIM>&, const StepWork<DIM>&, const Model<DIM>&, double);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)

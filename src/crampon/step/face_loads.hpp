@@ -18,7 +18,7 @@ void weigh_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& 
 
 /// The traction of each column, and what its links lack. load_values: per load and component, Pa. Serial.
 template <int Dim>
-void settle_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+void find_face_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 /// Sees a force on the pair of a particle, by its slot, and node n of its stencil at lane l, as if no symmetry plane folded the pair, N.
 template <int Dim, class Shape>

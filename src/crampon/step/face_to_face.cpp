@@ -81,7 +81,7 @@ bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Di
   pair.gap = gap(model_.contact.material_detection, place, a, b, pair, pair.n);
   if (needs_area(*pair.law))
     pair.area = (b.rigid ? area_on_rigid(a, b, depth, pair.n, plane) : area_between(a, b, pair.n)) / place.mirrors.images;
-  look_back(place, a, b, pair);
+  recall_history(place, a, b, pair);
   return true;
 }
 
@@ -143,7 +143,7 @@ std::pair<Face<Dim>, Face<Dim>> FaceToFace<Dim>::before(const MeetingPlace<Dim>&
 
 /// What the law asks of the past: on the side of the lower field, above a crack (docs/theory/contact.md, which law).
 template <int Dim>
-void FaceToFace<Dim>::look_back(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const {
+void FaceToFace<Dim>::recall_history(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const {
   if (needs_history(*pair.law)) pair.history = a.history / a.m;
   if (!std::holds_alternative<InterfaceContact>(*pair.law)) return;
   // Of what lies between the mean positions, the strain and the turn of both sides are not opening.
@@ -165,7 +165,7 @@ bool FaceToFace<Dim>::see_across(const MeetingPlace<Dim>& place, const CrackAtNo
   pair.volume_ratio = relative_volume(place);
   pair.gap = gap(model_.contact.detection, place, a, b, pair, crack.N);
   if (needs_area(*pair.law)) pair.area = area_between(a, b, pair.n) / place.mirrors.images;
-  look_back(place, a, b, pair);
+  recall_history(place, a, b, pair);
   return true;
 }
 

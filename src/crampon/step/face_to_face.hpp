@@ -105,7 +105,7 @@ class FaceToFace {
  private:
   std::pair<Face<Dim>, Face<Dim>> before(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b,
                                          const CornerFace<Dim>& face) const;
-  void look_back(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const;
+  void recall_history(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const;
   double cell_volume() const;
   double thickness(const Face<Dim>& a, const Face<Dim>& b) const;
   double area_between(const Face<Dim>& a, const Face<Dim>& b, const Vec<Dim>& n) const;

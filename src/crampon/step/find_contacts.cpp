@@ -120,7 +120,7 @@ class NodeFinder {
       Face<Dim>& face = faces_[static_cast<std::size_t>(field.group)];
       face.cracks = without_joined(layer(field.layer).cracks, model_);
       face.rigid = model_.is_rigid(part.field);
-      face.whole = model_.is_whole(part.field);
+      face.whole = model_.ignores_cracks(part.field);
       face.add(part);
       ContactGroup<Dim>& group = out_.groups[node.first_group + static_cast<std::uint32_t>(field.group)];
       group.m += m;

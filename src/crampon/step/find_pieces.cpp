@@ -104,15 +104,15 @@ class PieceSearch {
     if (first_of(i) == first_of(j)) return;
     if constexpr (Dim == 2) {
       const Entry &a = list_[i], &b = list_[j];
-      const auto is_whole = [&](const Entry& e) { return model_.is_whole(model_.materials[e.material].field); };
-      const bool whole = is_whole(a) && is_whole(b);
+      const auto ignores_cracks = [&](const Entry& e) { return model_.ignores_cracks(model_.materials[e.material].field); };
+      const bool whole = ignores_cracks(a) && ignores_cracks(b);
       const Vec<2> x = state_.particles.position(a.slot), y = state_.particles.position(b.slot);
       const auto facets = work_.crack_view.bins.facets_of_box({std::min(a.cell[0], b.cell[0]), std::min(a.cell[1], b.cell[1])},
                                                               {std::max(a.cell[0], b.cell[0]), std::max(a.cell[1], b.cell[1])}, room_);
       for (std::size_t f = 0; f < facets.size() && !whole;) {
         std::size_t end = f;
         while (end < facets.size() && facets[end].crack == facets[f].crack) ++end;
-        const bool bonded = std::holds_alternative<BondedContact>(model_.law_across(facets[f].crack));
+        const bool bonded = model_.law_across(facets[f].crack).joins();
         if (!bonded && cross_path(work_.crack_view.paths[facets[f].crack], facets.subspan(f, end - f), x, y).crosses()) return;
         f = end;
       }

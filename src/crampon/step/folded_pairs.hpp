@@ -117,9 +117,9 @@ std::vector<std::uint32_t> folded_packs(const State<Dim>& state, const StepWork<
   constexpr std::size_t pairs = std::size_t{lanes} * Tile<Dim, Shape>::stencil;
   const BlockLayers<Dim>& layers = work.nodes.layers[b];
   std::vector<std::uint32_t> packs;
-  for (std::size_t k = 0; k < layers.special.size(); ++k) {
-    if (layers.special[k] < 0) continue;
-    const PairTarget* first = &layers.targets[static_cast<std::size_t>(layers.special[k]) * pairs];
+  for (std::size_t k = 0; k < layers.targets_of_pack.size(); ++k) {
+    if (layers.targets_of_pack[k] < 0) continue;
+    const PairTarget* first = &layers.targets[static_cast<std::size_t>(layers.targets_of_pack[k]) * pairs];
     if (std::any_of(first, first + pairs, [](const PairTarget& t) { return t.mirrored != 0; }))
       packs.push_back(state.order.runs[work.blocks.list[b].first_run].first_pack + static_cast<std::uint32_t>(k));
   }

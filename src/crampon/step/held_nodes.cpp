@@ -13,7 +13,7 @@ template <int Dim>
 bool holds(const Model<Dim>& model, const FixedComponent& c) {
   const VelocityCondition<Dim>& condition = model.conditions[c.condition];
   if (!c.active || condition.symmetry) return false;
-  return !(c.fresh && model.fixed_force == FixedForce::incremental);
+  return !(c.newly_prescribed && model.fixed_force == FixedForce::incremental);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ struct Material {
 struct MaterialField {
   std::string name;
   bool rigid = false;           ///< of a rigid body: masses on its nodes are volumes, 1 kg/m3
-  bool whole = false;           ///< cracks do not part it: rigid, or as the input has it
+  bool ignores_cracks = false;  ///< cracks do not part it: rigid, or as the input has it
   int body = -1;                ///< rigid: index into Model::rigid_bodies
   std::uint16_t bonded_to = 0;  ///< the lowest field to which a chain of bonded laws joins it; itself where there is none
   double thickness = 1;         ///< m, 2D
@@ -186,7 +186,7 @@ struct Model {
   /// Images of cracks in symmetry planes, which have the same laws, follow the cracks (CrackView::seen).
   const ContactLawSpec& law_across(CrackId crack) const { return crack_laws[crack % crack_laws.size()]; }
   bool is_rigid(std::uint16_t field) const { return fields[field].rigid; }
-  bool is_whole(std::uint16_t field) const { return fields[field].whole; }
+  bool ignores_cracks(std::uint16_t field) const { return fields[field].ignores_cracks; }
 };
 
 /// Is stress updated with the velocities of Task 2, or with those of Task 6? USAVG does both, half of the step each (N03 Eq. 35).

@@ -19,7 +19,7 @@ std::optional<Vec<2>> plane_velocity(const StepWork<2>& work, const Model<2>& mo
     const BlockLayers<2>& layers = work.nodes.layers[node.block];
     Pack p = splat(0.);
     for (std::size_t l = 0; l < layers.node.size(); ++l) {
-      if (model.is_whole(layers.node[l].field)) continue;
+      if (model.ignores_cracks(layers.node[l].field)) continue;
       p += work.nodes.momentum[layers.slot(l, node.local)];
     }
     if (!(p[2] > 0)) continue;

@@ -51,8 +51,8 @@ class BlockStencils {
   }
   /// Where the pairs of a pack of the run go, or null: all to their own node in the stencil's layer.
   [[gnu::always_inline]] const PairTarget* targets(std::uint32_t pack) const {
-    const std::int32_t special = layers_.special.empty() ? -1 : layers_.special[pack - first_pack_];
-    return special < 0 ? nullptr : &layers_.targets[static_cast<std::size_t>(special) * lanes * Stencil<Dim, Shape>::count];
+    const std::int32_t index = layers_.targets_of_pack.empty() ? -1 : layers_.targets_of_pack[pack - first_pack_];
+    return index < 0 ? nullptr : &layers_.targets[static_cast<std::size_t>(index) * lanes * Stencil<Dim, Shape>::count];
   }
 
  private:

@@ -143,7 +143,7 @@ PointNodes PointFields::at(const Vec<2>& x, std::uint16_t field) const {
   std::array<Vec<2>, most_nodes_in_plane> places;
   for (std::size_t i = 0; i < about.size(); ++i) places[i] = about[i].x;
   std::array<Layer, most_nodes_in_plane> seen{};
-  if (!work_.crack_view.paths.empty() && !model_.is_whole(field)) {
+  if (!work_.crack_view.paths.empty() && !model_.ignores_cracks(field)) {
     for_crossings(x, {places.data(), about.size()}, [&](CrackId c, std::size_t i) { seen[i].cracks.append(c); });
   }
   PointNodes out;

@@ -113,7 +113,7 @@ Order find_order(const State<Dim>& state, const Model<Dim>& model) {
 
 /// f(pack, slots its particles come from) for all packs in their new order. The last particle of a run fills up its last pack.
 template <class F>
-void for_packs(const Order& order, int threads, F f) {
+void for_new_packs(const Order& order, int threads, F f) {
   parallel_for(order.runs.size(), threads, [&](std::size_t r) {
     std::size_t i = order.first[r];
     for (std::size_t k = order.runs[r].first_pack; k < order.runs[r].end_pack; ++k) {
@@ -130,24 +130,24 @@ void for_packs(const Order& order, int threads, F f) {
 /// Brings an array with `width` records per particle into the new order. One array after the other: little memory is taken twice.
 template <class Record>
 void move_records(AlignedArray<Record>& array, std::size_t width, const Order& order, int threads) {
-  AlignedArray<Record> fresh(order.packs() * lanes * width);
-  for_packs(order, threads, [&](std::size_t k, const std::size_t(&from)[lanes]) {
-    Record* to = &fresh[k * lanes * width];
+  AlignedArray<Record> moved(order.packs() * lanes * width);
+  for_new_packs(order, threads, [&](std::size_t k, const std::size_t(&from)[lanes]) {
+    Record* to = &moved[k * lanes * width];
     for (const std::size_t slot : from) to = std::copy_n(&array[slot * width], width, to);
   });
-  array = std::move(fresh);
+  array = std::move(moved);
 }
 
 /// The same for `width` packs per pack of particles.
 void move_lanes(AlignedArray<Pack>& array, std::size_t width, const Order& order, int threads) {
-  AlignedArray<Pack> fresh(order.packs() * width);
-  for_packs(order, threads, [&](std::size_t k, const std::size_t(&from)[lanes]) {
+  AlignedArray<Pack> moved(order.packs() * width);
+  for_new_packs(order, threads, [&](std::size_t k, const std::size_t(&from)[lanes]) {
     for (std::size_t c = 0; c < width; ++c) {
-      Pack& to = fresh[k * width + c];
+      Pack& to = moved[k * width + c];
       for (std::size_t l = 0; l < lanes; ++l) to[l] = array[from[l] / lanes * width + c][from[l] % lanes];
     }
   });
-  array = std::move(fresh);
+  array = std::move(moved);
 }
 
 template <class Record>

@@ -22,10 +22,10 @@ struct FixedComponent {
   std::uint16_t node = 0;  ///< local node of the block
   std::uint8_t axis = 0;
   std::uint16_t condition = 0;
-  std::uint16_t component = 0;  ///< of the condition
-  bool active = false;          ///< the condition holds in this step
-  bool fresh = false;           ///< ... and the component was free in the step before
-  double v_old = 0, v_new = 0;  ///< m/s, at the start and the end of the step
+  std::uint16_t component = 0;    ///< of the condition
+  bool active = false;            ///< the condition holds in this step
+  bool newly_prescribed = false;  ///< ... and the component was free in the step before
+  double v_old = 0, v_new = 0;    ///< m/s, at the start and the end of the step
 };
 
 /// A particle that a force acts on. Rebuilt when blocks change.

@@ -20,7 +20,7 @@ bool is_cut_material(const Start<2>& start, Vec<2> x) {
   }
   for (std::size_t b = 0; b < start.problem.bodies.size(); ++b) {
     const BodySpace<2>& body = start.bodies[b];
-    if (!start.model.is_whole(body.field()) && body.contains(x, 1e-9 * start.model.grid.smallest_cell())) return true;
+    if (!start.model.ignores_cracks(body.field()) && body.contains(x, 1e-9 * start.model.grid.smallest_cell())) return true;
   }
   return false;
 }
@@ -56,7 +56,7 @@ bool parts_some_pair(const Start<2>& start, const Crack<2>& crack) {
   }
   const int reach = with_shape(start.model.shape_functions, []<class Shape>(std::type_identity<Shape>) { return cells_beyond<Shape> + 1; });
   for (std::size_t b = 0; b < start.problem.bodies.size(); ++b) {
-    if (start.model.is_whole(start.bodies[b].field())) continue;
+    if (start.model.ignores_cracks(start.bodies[b].field())) continue;
     for (const auto& p : start.bodies[b].particles()) {
       IndexVector<2> cell{};
       bool near = true;
@@ -86,7 +86,7 @@ std::string nearest_body(const Start<2>& start, const Crack<2>& crack) {
   double nearest = std::numeric_limits<double>::infinity();
   std::string name;
   for (std::size_t b = 0; b < start.problem.bodies.size(); ++b) {
-    if (start.model.is_whole(start.bodies[b].field())) continue;
+    if (start.model.ignores_cracks(start.bodies[b].field())) continue;
     for (const Vec<2>& v : crack.plane) {
       const double d = start.bodies[b].distance(v);
       if (d < nearest) nearest = d, name = start.bodies[b].name();
