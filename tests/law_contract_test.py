@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Does the compiler name what a material law lacks, in its first error?
+"""Does the compiler name what a law lacks, in its first error? For material, contact and traction laws.
 
 law_contract_test.py COMPILER
 Compiles a law that is complete, and the same law without each of its members.
@@ -12,7 +12,7 @@ import sys
 SOURCE = pathlib.Path(__file__).resolve().parent.parent / "src"
 
 # member: (its lines, words that the first error must hold when it is missing)
-MEMBERS = {
+MATERIAL = {
     "name": ('static constexpr const char* name = "broken";', "static constexpr const char* name"),
     "declaration": ("static const Declaration<Law>& declaration();", "static const Declaration<Law>& declaration()"),
     "example": ("static Law example() { return {}; }", "static Law example()"),
@@ -30,47 +30,93 @@ MEMBERS = {
                            "Pack present_wave_speed("),
 }
 # What is there but wrong.
-WRONG = {
-    "a variable behind the history": ("variables", MEMBERS["variables"][0].replace(", 0}", ", 1}"), "each variable of a material law needs"),
-    "a variable without a unit": ("variables", MEMBERS["variables"][0].replace("J/m3", ""), "each variable of a material law needs"),
-    "an energy in another unit": ("variables", MEMBERS["variables"][0].replace("J/m3", "J").replace(", 0}", ", 0, 1, LawVariable::Kind::dissipated}"),
+MATERIAL_WRONG = {
+    "a variable behind the history": ("variables", MATERIAL["variables"][0].replace(", 0}", ", 1}"), "each variable of a material law needs"),
+    "a variable without a unit": ("variables", MATERIAL["variables"][0].replace("J/m3", ""), "each variable of a material law needs"),
+    "an energy in another unit": ("variables", MATERIAL["variables"][0].replace("J/m3", "J").replace(", 0}", ", 0, 1, LawVariable::Kind::dissipated}"),
                                   "each variable of a material law needs"),
     "an update that returns nothing": ("update", "template <int Dim, StressState S> void update(const Pack*, double, Pack*, Pack*) const {}",
                                        "Pack update("),
 }
 
 
-def source(lines):
+CONTACT = {
+    "name": ('static constexpr const char* name = "broken";', "static constexpr const char* name"),
+    "declaration": ("static const Declaration<Law>& declaration();", "static const Declaration<Law>& declaration()"),
+    "examples": ("static std::vector<Law> examples() { return {}; }", "static std::vector<Law> examples()"),
+    "meeting": ("static constexpr Meeting meeting = Meeting::pressing;", "static constexpr Meeting meeting"),
+    "adheres": ("static constexpr bool adheres = true;", "static constexpr bool adheres"),
+    "needs_area": ("bool needs_area() const { return true; }", "bool needs_area() const"),
+    "remembers": ("Remembered remembers() const { return Remembered::nothing; }", "Remembered remembers() const"),
+    "limit": ("SlidingLimit limit(const Sliding&) const { return {}; }", "SlidingLimit limit(const Sliding&) const"),
+    "strictness": ("Strictness strictness() const { return {}; }", "Strictness strictness() const"),
+    "holds": ("bool holds(const Pull&) const { return true; }", "bool holds(const Pull&) const"),
+}
+CONTACT_WRONG = {
+    "springs that are not given": ("meeting", "static constexpr Meeting meeting = Meeting::springs;", "ContactSprings springs() const"),
+    "joined faces that adhere": ("meeting", "static constexpr Meeting meeting = Meeting::joined;", "only a contact law whose meeting is Meeting::pressing"),
+    "an area that is needed by all": ("needs_area", "static constexpr bool needs_area = true;", "bool needs_area() const"),
+    "a limit that is a number": ("limit", "double limit(const Sliding&) const { return 0; }", "SlidingLimit limit(const Sliding&) const"),
+}
+TRACTION = {
+    "name": ('static constexpr const char* name = "broken";', "static constexpr const char* name"),
+    "Input": ("using Input = Law;", "using Input"),
+    "declaration": ("static const Declaration<Law>& declaration();", "static const Declaration<Input>& declaration()"),
+    "make": ("static Law make(const Law& in) { return in; }", "static Law make(const Input&)"),
+    "examples": ("static std::vector<Law> examples() { return {}; }", "static std::vector<Law> examples()"),
+    "acts": ("static constexpr bool acts = true;", "static constexpr bool acts ="),
+    "acts_closed": ("static constexpr bool acts_closed = false;", "static constexpr bool acts_closed"),
+    "from_outside": ("static constexpr bool from_outside = false;", "static constexpr bool from_outside"),
+    "respond": ("Traction respond(const PerMode&, double, const Vec<3>&, TractionHistory&) const { return {}; }", "Traction respond("),
+    "largest_stiffness": ("double largest_stiffness() const { return 0; }", "double largest_stiffness() const"),
+    "toughness": ("PerMode toughness() const { return {}; }", "PerMode toughness() const"),
+}
+TRACTION_WRONG = {
+    "a toughness for both modes": ("toughness", "double toughness() const { return 0; }", "PerMode toughness() const"),
+}
+# (family, header, how a law joins, members, what is wrong)
+FAMILIES = (
+    ("material", "material/material.hpp", "void join(Family<MaterialSpec>& family) { add_material<Law>(family); }", MATERIAL, MATERIAL_WRONG),
+    ("contact", "contact/law.hpp", "void join(Family<ContactLawSpec>& family) { add_contact_law<Law>(family); }", CONTACT, CONTACT_WRONG),
+    ("traction", "crack/traction/law.hpp", "void join(Family<TractionLawSpec>& family) { add_traction_law<Law>(family); }", TRACTION, TRACTION_WRONG),
+)
+
+
+def source(header, join, lines):
     return """#include <array>
-#include "crampon/material/material.hpp"
+#include "crampon/%s"
 namespace crampon {
 struct Law {
   %s
 };
-void join(Family<MaterialSpec>& family) { add_material<Law>(family); }
+%s
 }
-""" % "\n  ".join(lines)
+""" % (header, "\n  ".join(lines), join)
 
 
-def first_error(compiler, lines):
-    done = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-w", "-I", str(SOURCE), "-x", "c++", "-"], input=source(lines), text=True,
+def first_error(compiler, code):
+    done = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-w", "-I", str(SOURCE), "-x", "c++", "-"], input=code, text=True,
                           capture_output=True)
     errors = [line for line in done.stderr.splitlines() if "error:" in line]
     return errors[0] if errors else ""
 
 
-def check(compiler, what, lines, words):
-    error = first_error(compiler, lines)
+def check(compiler, what, code, words):
+    error = first_error(compiler, code)
     good = words in error if words else not error
     return good, "%s: %s" % (what, error or "compiles")
 
 
 def main(compiler):
-    cases = [("a complete law", [text for text, _ in MEMBERS.values()], "")]
-    for name, (_, words) in MEMBERS.items():
-        cases.append(("without " + name, [text for other, (text, _) in MEMBERS.items() if other != name], words))
-    for what, (name, text, words) in WRONG.items():
-        cases.append((what, [text if other == name else kept for other, (kept, _) in MEMBERS.items()], words))
+    cases = []
+    for family, header, join, members, wrong in FAMILIES:
+        def add(what, lines, words):
+            cases.append(("%s law, %s" % (family, what), source(header, join, lines), words))
+        add("complete", [text for text, _ in members.values()], "")
+        for name, (_, words) in members.items():
+            add("without " + name, [text for other, (text, _) in members.items() if other != name], words)
+        for what, (name, text, words) in wrong.items():
+            add(what, [text if other == name else kept for other, (kept, _) in members.items()], words)
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         results = list(pool.map(lambda case: check(compiler, *case), cases))
     for good, text in results:

@@ -41,10 +41,12 @@ template <int Dim>
 struct Node {
   std::vector<ContactGroup<Dim>> groups;
   std::vector<ContactPair<Dim>> pairs;
-  std::vector<ContactLawSpec> laws;  ///< by crack
+  std::vector<ContactLawSpec> laws;  ///< by crack; none: pairs have their laws
 
   bool solve(const ContactRules& rules) {
-    for (auto& pair : pairs) pair.law = &laws[pair.name.between_materials() ? 0 : pair.name.crack];
+    if (!laws.empty()) {
+      for (auto& pair : pairs) pair.law = &*laws[pair.name.between_materials() ? 0 : pair.name.crack];
+    }
     return solve_contact<Dim>(rules, groups.data(), static_cast<int>(groups.size()), pairs.data(), static_cast<int>(pairs.size()));
   }
   Vec<Dim> velocity_before(int g) const { return groups[static_cast<std::size_t>(g)].p * (1 / groups[static_cast<std::size_t>(g)].m); }

@@ -4,6 +4,9 @@
 
 #include <string>
 
+#include "crampon/contact/laws/coulomb.hpp"
+#include "crampon/contact/laws/frictionless.hpp"
+#include "crampon/contact/laws/stick.hpp"
 #include "unit/contact_cases.hpp"
 
 namespace crampon::test {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "crampon/contact/laws/bonded.hpp"
+#include "crampon/contact/laws/coulomb.hpp"
+#include "crampon/contact/laws/frictionless.hpp"
+#include "crampon/contact/laws/stick.hpp"
 #include "unit/contact_cases.hpp"
 
 namespace crampon::test {

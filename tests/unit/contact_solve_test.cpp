@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "crampon/contact/laws/adhesive.hpp"
+#include "crampon/contact/laws/coulomb.hpp"
+#include "crampon/contact/laws/frictionless.hpp"
+#include "crampon/contact/laws/stick.hpp"
 #include "unit/contact_cases.hpp"
 
 namespace crampon::test {
@@ -144,7 +148,7 @@ TYPED_TEST(ContactSolve, VolumeRule) {
     const double T = norm(tangential_part(J, pair.n)), stick = node.reduced_mass(pair) * norm(tangential_part(w, pair.n));
     const double carried = law == 0   ? 0
                            : law == 1 ? stick
-                                      : std::fmin(stick, std::get<CoulombContact>(node.laws[0]).friction * std::fabs(N));
+                                      : std::fmin(stick, node.laws[0].template as<CoulombContact>()->friction * std::fabs(N));
     ASSERT_NEAR(T, carried, round_off * scale);
     ASSERT_LE(dot(J, tangential_part(w, pair.n)), round_off * scale * node.speed());  // never speeds the slip up
   }

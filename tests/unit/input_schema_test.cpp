@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "crampon/contact/laws/frictionless.hpp"
 #include "crampon/input/reference.hpp"
 #include "unit/input_samples.hpp"
 

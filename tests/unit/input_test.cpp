@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "crampon/contact/laws/bonded.hpp"
+#include "crampon/contact/laws/coulomb.hpp"
+#include "crampon/contact/laws/none.hpp"
 #include "unit/input_samples.hpp"
 
 namespace crampon {
@@ -102,8 +105,8 @@ TEST(ReadProblem, ValuesArriveInSI) {
   ASSERT_EQ(p.cracks.size(), 2u);
   EXPECT_EQ(p.cracks[0].name, "crack1");
   EXPECT_EQ(p.cracks[0].points, (std::vector<std::vector<double>>{{0.02, 0.018}, {0.05, 0.018}}));
-  EXPECT_EQ(std::get<CoulombContact>(p.cracks[0].contact).friction, 0.3);
-  EXPECT_TRUE(std::holds_alternative<BondedContact>(p.cracks[1].contact));
+  EXPECT_EQ(p.cracks[0].contact.as<CoulombContact>()->friction, 0.3);
+  EXPECT_TRUE(p.cracks[1].contact.as<BondedContact>());
   EXPECT_EQ(p.cracks[1].arc->segments, 7);
   EXPECT_EQ(p.cracks[1].arc->from, std::acos(-1.));
   EXPECT_EQ(p.boundaries[0].name, "boundary1");
@@ -189,7 +192,7 @@ TEST(Overrides, ReplaceAndAddEntries) {
   EXPECT_EQ(p.title, "My beam");
   EXPECT_EQ(p.grid.cell[0], 0.0025);
   EXPECT_EQ(p.time.steps, 3);
-  EXPECT_TRUE(std::holds_alternative<NoContact>(p.cracks[1].contact));
+  EXPECT_TRUE(p.cracks[1].contact.as<NoContact>());
   EXPECT_TRUE(p.loads[0].region && p.loads[0].region->contains({{7, 7, 0}}));
 }
 

@@ -96,7 +96,7 @@ TEST_P(EveryLaw, AccountsForTheWorkDoneOnIt) {
       double work = 0, total = 0, taken = 0;
       Matrix3d before = Matrix3d::Zero();
       for (int step = 0; step < steps; ++step) {
-        const Matrix3d now = L((step + 0.5) / steps);
+        Matrix3d now = L((step + 0.5) / steps);
         points.update([&](int) { return now; }, 1. / steps);
         const Matrix3d stress = points.answer(0).stress;
         const double power = (0.5 * (before + stress).array() * now.array()).sum() / steps;
@@ -143,7 +143,7 @@ TEST_P(EveryLaw, KeepsToTheStateOfStress) {
   const Path L = path(random);
   Points points(law, state), in_space(law, StressState::three_dimensional);
   for (int step = 0; step < 200; ++step) {
-    const Matrix3d now = L((step + 0.5) / 200);
+    Matrix3d now = L((step + 0.5) / 200);
     points.update([&](int) { return now; }, 1. / 200);
     if (state == StressState::plane_stress) {
       ASSERT_EQ(points.answer(0).stress(2, 2), 0);

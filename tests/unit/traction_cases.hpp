@@ -8,9 +8,28 @@
 #include <string>
 #include <vector>
 
+#include "crampon/crack/traction/coupled_sawtooth.hpp"
+#include "crampon/crack/traction/cubic.hpp"
+#include "crampon/crack/traction/decoupled.hpp"
+#include "crampon/crack/traction/elastic_brittle.hpp"
+#include "crampon/crack/traction/exponential.hpp"
 #include "crampon/crack/traction/law.hpp"
+#include "crampon/crack/traction/linear_elastic.hpp"
+#include "crampon/crack/traction/mixed_mode.hpp"
+#include "crampon/crack/traction/none.hpp"
+#include "crampon/crack/traction/pressure.hpp"
+#include "crampon/crack/traction/triangular.hpp"
+#include "crampon/crack/traction/trilinear.hpp"
+#include "crampon/crack/traction/user_curve.hpp"
 
 namespace crampon::test {
+
+using TriangularTraction = DecoupledTraction<TriangularInput>;
+using TrilinearTraction = DecoupledTraction<TrilinearInput>;
+using CubicTraction = DecoupledTraction<CubicInput>;
+using ExponentialTraction = DecoupledTraction<ExponentialInput>;
+using UserCurveTraction = DecoupledTraction<UserCurveInput>;
+using BrittleTraction = DecoupledTraction<BrittleInput>;
 
 /// A curve of one mode in the plainest words.
 struct PlainCurve {

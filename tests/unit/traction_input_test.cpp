@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "crampon/crack/traction/law.hpp"
+#include "crampon/crack/traction/mixed_mode.hpp"
+#include "crampon/crack/traction/none.hpp"
+#include "crampon/crack/traction/pressure.hpp"
 #include "crampon/input/record_reader.hpp"
 #include "crampon/input/toml_source.hpp"
 
@@ -47,17 +50,15 @@ std::string both(const std::string& law, const std::string& curve) {
 }
 
 TEST(TractionInput, HasAllLawsOfTheFamily) {
-  EXPECT_EQ(traction_laws().alternatives().size(), std::variant_size_v<TractionLawSpec>);
-  EXPECT_TRUE(std::holds_alternative<NoTraction>(Interface{}.traction));
+  EXPECT_TRUE(Interface{}.traction.as<NoTraction>());
   for (const Alternative& law : traction_laws().alternatives()) {
     EXPECT_FALSE(law.record->help().empty());
     for (const Entry& entry : law.record->entries()) EXPECT_FALSE(entry.help.empty()) << law.name() << "." << entry.key;
   }
-  EXPECT_TRUE(std::holds_alternative<NoTraction>(read("\"none\"")));
-  EXPECT_TRUE(std::holds_alternative<PressureTraction>(read("{ law = \"pressure\", pressure = \"1 bar\" }")));
-  EXPECT_EQ(std::get<PressureTraction>(read("{ law = \"pressure\", pressure = { expression = \"t\", unit = \"MPa\" } }")).pressure(2, {}),
-            2e6);
-  EXPECT_EQ(largest_stiffness(read("{ law = \"linear_elastic\", normal_stiffness = \"100 MPa/mm\", shear_stiffness = 0 }")), 1e11);
+  EXPECT_TRUE(read("\"none\"").as<NoTraction>());
+  EXPECT_TRUE(read("{ law = \"pressure\", pressure = \"1 bar\" }").as<PressureTraction>());
+  EXPECT_EQ(read("{ law = \"pressure\", pressure = { expression = \"t\", unit = \"MPa\" } }").as<PressureTraction>()->pressure(2, {}), 2e6);
+  EXPECT_EQ(read("{ law = \"linear_elastic\", normal_stiffness = \"100 MPa/mm\", shear_stiffness = 0 }")->largest_stiffness(), 1e11);
 }
 
 // Any two of strength, final opening and toughness give the same law.
@@ -75,23 +76,26 @@ TEST(TractionInput, TwoOfThreeDefineTheThird) {
     SCOPED_TRACE(l.name + l.rest);
     const auto law = [&](const std::string& two) { return read(both(l.name, two + l.rest)); };
     const TractionLawSpec first = law("strength = 5e6, final_opening = 1e-4");
-    const double G_c = toughness(first).normal, k = largest_stiffness(first);
+    const double G_c = first->toughness().normal, k = first->largest_stiffness();
     const std::string area = "toughness = " + std::to_string(G_c);  // six decimals of some hundred
     for (const std::string& two : {"strength = 5e6, " + area, "final_opening = 1e-4, " + area}) {
-      EXPECT_NEAR(toughness(law(two)).shear, G_c, 1e-6);
-      EXPECT_NEAR(largest_stiffness(law(two)), k, 1e-7 * k);
+      EXPECT_NEAR(law(two)->toughness().shear, G_c, 1e-6);
+      EXPECT_NEAR(law(two)->largest_stiffness(), k, 1e-7 * k);
       for (const double u : {0.3e-5, 2e-5, 6e-5, 0.99e-4}) {
         TractionHistory one, other;
-        EXPECT_NEAR(update_traction(first, {u, 0}, 0, {}, one).normal, update_traction(law(two), {u, 0}, 0, {}, other).normal, 1e-6 * 5e6);
+        EXPECT_NEAR(update_traction(*first, {u, 0}, 0, {}, one).normal, update_traction(*law(two), {u, 0}, 0, {}, other).normal,
+                    1e-6 * 5e6);
       }
     }
   }
 }
 
 TEST(TractionInput, MixedModeTakesACurveForEachMode) {
-  const auto law = std::get<MixedModeTraction>(
-      read("{ law = \"mixed_mode\", normal = { curve = \"cubic\", strength = \"5 MPa\", toughness = \"300 J/m2\" }, "
-           "shear = { curve = \"triangular\", strength = \"8 MPa\", toughness = \"0.9 N/mm\", stiffness = \"1 GPa/mm\" } }"));
+  const TractionLawSpec read_law = read(
+      "{ law = \"mixed_mode\", normal = { curve = \"cubic\", strength = \"5 MPa\", toughness = \"300 J/m2\" }, "
+      "shear = { curve = \"triangular\", strength = \"8 MPa\", toughness = \"0.9 N/mm\", stiffness = \"1 GPa/mm\" } }");
+  ASSERT_TRUE(read_law.as<MixedModeTraction>());
+  const MixedModeTraction& law = *read_law.as<MixedModeTraction>();
   EXPECT_EQ(std::get<CubicCurve>(law.normal).strength, 5e6);
   EXPECT_DOUBLE_EQ(law.toughness().normal, 300);
   EXPECT_DOUBLE_EQ(law.toughness().shear, 900);

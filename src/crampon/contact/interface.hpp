@@ -15,7 +15,7 @@ inline constexpr double interface_failed = Dim == 2 ? 0.5 : 0.25;
 /// Is the pair an interface that has not failed?
 template <int Dim>
 bool holds_as_interface(const ContactPair<Dim>& pair) {
-  return std::holds_alternative<InterfaceContact>(*pair.law) && pair.history < interface_failed<Dim>;
+  return pair.law->has_springs() && pair.history < interface_failed<Dim>;
 }
 
 /// A spring of stiffness D A between two masses, of reduced mass m. Too stiff for the step (w dt > 2): held.
@@ -42,7 +42,7 @@ struct InterfaceSprings {
 
   /// The side of the normal law is that of the displacement at the middle of the step.
   InterfaceSprings(const ContactPair<Dim>& pair, double m, double dt) {
-    const auto& law = std::get<InterfaceContact>(*pair.law);
+    const ContactSprings& law = pair.law->springs();
     u_n = dot(pair.opening, pair.n);
     u_t = pair.opening - pair.n * u_n;
     D_n = u_n + 0.5 * dt * dot(pair.w_settled, pair.n) > 0 ? law.tension : law.compression;
@@ -56,7 +56,7 @@ struct InterfaceSprings {
 /// left them. Positions move as Task 4 has left them in any case (find_drift in step/adjust_contact.cpp).
 template <int Dim>
 Response<Dim> interface_response(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
-  const auto& law = std::get<InterfaceContact>(*pair.law);
+  const ContactSprings& law = pair.law->springs();
   const InterfaceSprings<Dim> springs(pair, m, rules.dt);
   const double w_n = dot(w, pair.n);
   const Vec<Dim> w_t = w - pair.n * w_n;
@@ -97,7 +97,7 @@ double interface_energy(const ContactPair<Dim>& pair, double m, const Vec<Dim>& 
   const InterfaceSprings<Dim> springs(pair, m, dt);
   const Vec<Dim> u = pair.opening + w_end * dt;
   const double u_n = dot(u, pair.n);
-  const auto& law = std::get<InterfaceContact>(*pair.law);
+  const ContactSprings& law = pair.law->springs();
   const double D_n = u_n > 0 ? law.tension : law.compression;
   double energy = 0;
   if (!springs.normal.stiff() && std::isfinite(D_n)) energy += 0.5 * D_n * pair.area * u_n * u_n;
@@ -108,7 +108,7 @@ double interface_energy(const ContactPair<Dim>& pair, double m, const Vec<Dim>& 
 /// (S/S_c)^2 + (N/N_c)^2 of the tractions that the impulse of Task 4 stands for.
 template <int Dim>
 double interface_load(const ContactPair<Dim>& pair, double dt) {
-  const auto& law = std::get<InterfaceContact>(*pair.law);
+  const ContactSprings& law = pair.law->springs();
   if (!law.can_fail() || !(pair.area > 0)) return 0;
   const double J_n = dot(pair.J, pair.n), scale = 1 / (pair.area * dt);
   const double N = std::fmax(-J_n, 0.) * scale, S = norm(pair.J - pair.n * J_n) * scale;

@@ -1,102 +1,122 @@
 #pragma once
-/// What two bodies, or the faces of a crack, do when they meet. A law is a small value type; the nodal solve
-/// (contact/node_solve.hpp) turns it into impulses, and friction.hpp says how much it resists sliding. Adding a law: one struct here
-/// or in its own file, one entry in ContactLawSpec and contact_laws(), one overload in friction.cpp.
+/// The door to contact laws: what two bodies, or the faces of a crack, do when they meet, without knowing which law it is. The nodal solve
+/// (contact/node_solve.hpp) turns it into impulses. A law itself is a plain struct in its own file (contact/laws/coulomb.hpp). ContactLawOf puts it
+/// behind ContactLaw; contact/registry.cpp lists it (docs/decisions/0024-contact-law-family.md).
 
-#include <cmath>
-#include <optional>
-#include <variant>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
 
+#include "crampon/contact/law_contract.hpp"
+#include "crampon/contact/law_questions.hpp"
 #include "crampon/core/declaration.hpp"
 
 namespace crampon {
 
-/// The two do not see each other.
-struct NoContact {
-  static const Declaration<NoContact>& declaration();
+/// A contact law with its parameters. Most answers do not change during a run, and are kept as data: contact asks them for each pair at each node.
+class ContactLaw {
+ public:
+  virtual ~ContactLaw() = default;
+  virtual std::string name() const = 0;
+
+  Meeting meeting() const { return facts_.meeting; }
+  bool ignores() const { return facts_.meeting == Meeting::never; }
+  bool joins() const { return facts_.meeting == Meeting::joined; }
+  bool has_springs() const { return facts_.meeting == Meeting::springs; }
+  /// Do faces that have met bear tension?
+  bool adheres() const { return facts_.adheres; }
+  bool needs_area() const { return facts_.needs_area; }
+  Remembered remembers() const { return facts_.remembers; }
+  bool needs_history() const { return facts_.remembers != Remembered::nothing; }
+  const Strictness& strictness() const { return facts_.strictness; }
+  /// Where the law has springs.
+  const ContactSprings& springs() const { return facts_.springs; }
+
+  /// Whether the law stops all slip, and with what impulse it resists if not.
+  virtual SlidingLimit limit(const Sliding& sliding) const = 0;
+  /// Do faces that have met stay together? False for laws that do not adhere, and without an area.
+  bool holds(const Pull& pull) const { return facts_.adheres && pull.area > 0 && bears(pull); }
+
+ protected:
+  struct Facts {
+    Meeting meeting;
+    bool adheres, needs_area;
+    Remembered remembers;
+    Strictness strictness;
+    ContactSprings springs;
+  };
+  explicit ContactLaw(const Facts& facts) : facts_(facts) {}
+
+ private:
+  virtual bool bears(const Pull& pull) const = 0;
+  Facts facts_;
 };
 
-/// Joined for good: no detection, equal to a body without the boundary (conventions 44).
-struct BondedContact {
-  static const Declaration<BondedContact>& declaration();
+/// Makes a law of a plain struct; ContactLawContract says what the struct provides.
+template <class Law>
+class ContactLawOf final : public ContactLaw {
+  static_assert(ContactLawContract<Law>::complete);
+
+ public:
+  explicit ContactLawOf(const Law& law) : ContactLaw(facts_of(law)), law_(law) {}
+  std::string name() const override { return Law::name; }
+  SlidingLimit limit(const Sliding& sliding) const override { return law_.limit(sliding); }
+  const Law& parameters() const { return law_; }
+
+ private:
+  static Facts facts_of(const Law& law) {
+    ContactSprings springs;
+    if constexpr (Law::meeting == Meeting::springs) springs = law.springs();
+    return {Law::meeting, Law::adheres, law.needs_area(), law.remembers(), law.strictness(), springs};
+  }
+  bool bears([[maybe_unused]] const Pull& pull) const override {
+    if constexpr (Law::adheres) {
+      return law_.holds(pull);
+    } else {
+      return false;
+    }
+  }
+  Law law_;
 };
 
-/// No slip while in contact and in compression; free to open.
-struct StickContact {
-  static const Declaration<StickContact>& declaration();
-};
+/// A law with its parameters, shared by all that it holds for. Without a law of its own it is the frictionless one; it is never empty.
+class ContactLawSpec {
+ public:
+  ContactLawSpec();
+  template <class Law>
+  requires contact_contract::says_how_faces_meet<Law> ContactLawSpec(const Law& law) : law_(std::make_shared<ContactLawOf<Law>>(law)) {}
 
-/// Slip without resistance.
-struct FrictionlessContact {
-  static const Declaration<FrictionlessContact>& declaration();
-};
+  const ContactLaw& operator*() const { return *law_; }
+  const ContactLaw* operator->() const { return law_.get(); }
+  /// The struct, if it is this law; else null. For what shows parameters, such as the resolved input.
+  template <class Law>
+  requires contact_contract::says_how_faces_meet<Law>
+  const Law* as() const {
+    const auto* of = dynamic_cast<const ContactLawOf<Law>*>(law_.get());
+    return of ? &of->parameters() : nullptr;
+  }
 
-/// Coulomb friction: tangential impulse at most friction times the normal impulse.
-struct CoulombContact {
-  double friction = 0;                         ///< coefficient mu of sliding, dimensionless
-  std::optional<double> static_friction = {};  ///< ... at the onset of sliding; none: the same
-  std::optional<double> strength = {};         ///< most shear stress that friction reaches, Pa; none: no limit
-  static const Declaration<CoulombContact>& declaration();
+ private:
+  std::shared_ptr<const ContactLaw> law_;
 };
-
-/// Faces that have met hold together until (S/shear_strength)^2 + (N/normal_strength)^2 = 1; friction and the shear strength resist
-/// sliding under pressure.
-struct AdhesiveContact {
-  double friction = 0;         ///< dimensionless
-  double shear_strength = 0;   ///< S_a, Pa
-  double normal_strength = 0;  ///< N_a, Pa
-  static const Declaration<AdhesiveContact>& declaration();
-};
-
-/// mu = friction + per_speed * v.
-struct SpeedFrictionContact {
-  double friction = 0;        ///< dimensionless, at no speed
-  double per_speed = 0;       ///< k, s/m; negative: weakening
-  double shear_strength = 0;  ///< S_a, Pa
-  static const Declaration<SpeedFrictionContact>& declaration();
-};
-
-/// mu = friction + (static_friction - friction)/(1 + v/half_speed): from rest smoothly down to sliding.
-struct RateWeakeningContact {
-  double friction = 0, static_friction = 0;  ///< dimensionless
-  double half_speed = 0;                     ///< v_h, m/s
-  double shear_strength = 0;                 ///< S_a, Pa
-  static const Declaration<RateWeakeningContact>& declaration();
-};
-
-/// Friction that falls from static_friction to friction, and cohesion that vanishes, with the distance slipped.
-struct SlipWeakeningContact {
-  enum class Decay { exponential, linear };
-  double friction = 0, static_friction = 0;  ///< dimensionless
-  double distance = 0;                       ///< d_c, m
-  double shear_strength = 0;                 ///< S_a at no slip, Pa
-  Decay decay = Decay::exponential;
-  static const Declaration<SlipWeakeningContact>& declaration();
-};
-
-/// A film of liquid: shear stress viscosity * v / film.
-struct ViscousContact {
-  double viscosity = 0;  ///< eta, Pa s
-  double film = 0;       ///< thickness h_l, m
-  static const Declaration<ViscousContact>& declaration();
-};
-
-/// An imperfect interface: tractions in proportion to the displacement across it (docs/theory/contact.md, interfaces).
-struct InterfaceContact {
-  double tangential = 0;                       ///< D_t, Pa/m; infinite: no slip
-  double tension = 0;                          ///< D_nt, Pa/m; infinite: does not open
-  double compression = HUGE_VAL;               ///< D_nc, Pa/m; infinite: does not close
-  std::optional<double> shear_strength = {};   ///< Pa; reached: the interface is gone and contact is left
-  std::optional<double> normal_strength = {};  ///< Pa
-  double friction = 0;                         ///< of that contact
-  bool can_fail() const { return shear_strength || normal_strength; }
-  static const Declaration<InterfaceContact>& declaration();
-};
-
-using ContactLawSpec = std::variant<FrictionlessContact, NoContact, BondedContact, StickContact, CoulombContact, AdhesiveContact,
-                                    SpeedFrictionContact, RateWeakeningContact, SlipWeakeningContact, ViscousContact, InterfaceContact>;
 
 /// The family as the input sees it: `contact = { law = "coulomb", friction = 0.3 }`.
-const Family<ContactLawSpec>& contact_laws();
+Family<ContactLawSpec>& contact_laws();
+
+/// Every law of the family with the parameters of each of its examples: for what goes through all laws.
+std::vector<ContactLawSpec> contact_law_examples();
+
+namespace detail {
+std::vector<ContactLawSpec>& examples_of_contact_laws();
+}
+
+/// The one line by which a law joins the family.
+template <class Law>
+void add_contact_law(Family<ContactLawSpec>& family) {
+  static_assert(ContactLawContract<Law>::complete);
+  for (const Law& example : Law::examples()) detail::examples_of_contact_laws().push_back(example);
+  family.add<Law>(Law::declaration());
+}
 
 }  // namespace crampon

@@ -53,7 +53,7 @@ template <int Dim>
 struct ContactPair {
   GroupSet a = 0, b = 0;
   ContactName name;
-  const ContactLawSpec* law = nullptr;
+  const ContactLaw* law = nullptr;
   Vec<Dim> n;
   double gap = 0;                              ///< m, at the start of the step: negative when they overlap
   double volume_ratio = 0;                     ///< V_rel of N03 Eq. 10

@@ -28,7 +28,7 @@ Response<Dim> bonded_response(const ContactPair<Dim>& pair, double m, const Vec<
 /// Does glue between faces that have met hold?
 template <int Dim>
 bool glue_holds(const ContactRules& rules, const ContactPair<Dim>& pair, double m, double w_n, const Vec<Dim>& D_t) {
-  return adhesion_holds(*pair.law, m * w_n, norm(D_t), pair.area, rules.dt);
+  return pair.law->adheres() && pair.law->holds({m * w_n, norm(D_t), rules.dt, pair.area});
 }
 
 /// A term of a series for velocities: what Task 4 found to touch does not part by it, what stuck does not slip, and the springs of an interface
@@ -129,7 +129,7 @@ Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& p
 
 template <int Dim>
 Response<Dim> respond(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
-  if (std::holds_alternative<BondedContact>(*pair.law)) return bonded_response(pair, m, w);
+  if (pair.law->joins()) return bonded_response(pair, m, w);
   if (rules.task == ContactTask::term) return term_response(pair, m, w);
   if (holds_as_interface(pair)) return interface_response(rules, pair, m, w);
   return rules.literal ? literal_response(rules, pair, m, w) : consistent_response(rules, pair, m, w);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "crampon/contact/friction.hpp"
+#include "crampon/contact/law.hpp"
 #include "crampon/core/vector.hpp"
 
 namespace crampon {
@@ -42,10 +42,10 @@ struct Response {
     J -= D_t;
   }
   /// The law's share of the tangential impulse; of `sliding` mass, dt, area and slip are given.
-  void rub(const ContactLawSpec& law, const Vec<Dim>& D_t, Sliding sliding) {
+  void rub(const ContactLaw& law, const Vec<Dim>& D_t, Sliding sliding) {
     sliding.normal = std::fabs(normal);
     sliding.full = norm(D_t);
-    const SlidingLimit limit = sliding_limit(law, sliding);
+    const SlidingLimit limit = law.limit(sliding);
     if (limit.sticks) return stick(D_t);
     if (limit.per_normal > 0) {
       const Vec<Dim> friction = D_t * (-std::copysign(limit.per_normal, normal) / sliding.full);

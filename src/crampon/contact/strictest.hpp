@@ -8,6 +8,6 @@ namespace crampon {
 /// The law that leaves less freedom: first by what it can hold at all (none, frictionless, a viscous film, friction, adhesion, springs of
 /// an interface, stick, bonded), then by friction at rest, then by the shear stress that it bears without pressure (a viscous film: by
 /// its drag, an interface: by its stiffness). The first of equals.
-const ContactLawSpec& strictest(const ContactLawSpec& a, const ContactLawSpec& b);
+inline const ContactLaw& strictest(const ContactLaw& a, const ContactLaw& b) { return b.strictness() > a.strictness() ? b : a; }
 
 }  // namespace crampon

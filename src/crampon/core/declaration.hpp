@@ -285,7 +285,7 @@ template <class T, class... A>
 struct HoldsAlternative<T, std::variant<A...>> : std::bool_constant<(std::is_same_v<T, A> || ...)> {};
 }  // namespace detail
 
-/// A family whose values are R: a std::variant of the alternatives, or a pointer to what they have in common.
+/// A family whose values are R: a std::variant of the alternatives, or a pointer to what they have in common; one with as<T>() shows what it holds.
 template <class R>
 class Family : public AnyFamily {
  public:
@@ -303,6 +303,8 @@ class Family : public AnyFamily {
     a.view = []([[maybe_unused]] const void* value) -> const void* {
       if constexpr (detail::HoldsAlternative<T, R>::value)
         return std::get_if<T>(static_cast<const R*>(value));
+      else if constexpr (requires(const R& held) { held.template as<T>(); })
+        return static_cast<const R*>(value)->template as<T>();
       else
         return nullptr;
     };

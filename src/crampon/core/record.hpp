@@ -183,7 +183,7 @@ class AnyFamily {
   const std::string& help() const { return help_; }
   const std::vector<Alternative>& alternatives() const { return alternatives_; }
   const Alternative* find(const std::string& name) const;
-  /// The alternative that an R holds, where R shows it (std::variant).
+  /// The alternative that an R holds, where R shows it (std::variant, or as<T>()).
   const Alternative* holding(const void* value) const;
 
  protected:

@@ -80,8 +80,8 @@ void add_pair(const Problem& problem, const ContactPairInput& in, Model<Dim>& mo
 template <int Dim>
 void find_bonds(Model<Dim>& model) {
   const auto bonded = [&](std::uint16_t a, std::uint16_t b) {
-    return model.contact.pairs == ContactPairs::joint && std::holds_alternative<BondedContact>(model.law_between(a, b)) &&
-           !model.ignores_cracks(a) && !model.ignores_cracks(b);
+    return model.contact.pairs == ContactPairs::joint && model.law_between(a, b).joins() && !model.ignores_cracks(a) &&
+           !model.ignores_cracks(b);
   };
   const auto count = static_cast<std::uint16_t>(model.fields.size());
   for (std::uint16_t a = 0; a < count; ++a) {
@@ -125,8 +125,7 @@ void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state,
   for (std::size_t w = 0; w < problem.walls.size(); ++w) {
     const std::uint16_t wall = model.rigid_bodies[problem.rigids.size() + w].field;
     for (std::size_t f = 0; f < n; ++f) {
-      if (model.is_rigid(static_cast<int>(f)) || !std::holds_alternative<InterfaceContact>(model.law_between(static_cast<int>(f), wall)))
-        continue;
+      if (model.is_rigid(static_cast<int>(f)) || !model.law_between(static_cast<int>(f), wall).has_springs()) continue;
       errors.push_back({problem.walls[w].location,
                         fmt::format("the law between the wall \"{}\" and bodies is an interface", problem.walls[w].name),
                         "a wall has no displacement to hang a spring on",
@@ -140,8 +139,7 @@ void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state,
     // A spring hangs on a displacement, which a shape does not have.
     bool has_springs = false;
     for (int f = 0; f < static_cast<int>(n); ++f)
-      has_springs = has_springs || (!model.is_rigid(static_cast<std::uint16_t>(f)) &&
-                                    std::holds_alternative<InterfaceContact>(model.law_between(f, body.field)));
+      has_springs = has_springs || (!model.is_rigid(static_cast<std::uint16_t>(f)) && model.law_between(f, body.field).has_springs());
     if (!has_springs || body.acts != RigidBody<Dim>::Acts::face) continue;
     const RigidInput& in = problem.rigids[r];
     if (in.faces) {

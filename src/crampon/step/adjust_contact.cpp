@@ -59,7 +59,7 @@ void find_drift(ContactGroup<Dim>* groups, const ContactPair<Dim>* pairs, int pa
 /// What particles are to add to their memory of contact waits on the nodes (forget_gains in step/meet_faces.cpp): {gain, 1} where there is contact.
 template <int Dim>
 void put_gain(StepWork<Dim>& work, std::size_t b, const ContactNode<Dim>& node, const ContactPair<Dim>& pair) {
-  if (!needs_history(*pair.law) || (pair.state == ContactState::open && !holds_as_interface(pair))) return;
+  if (!pair.law->needs_history() || (pair.state == ContactState::open && !holds_as_interface(pair))) return;
   const ContactNodes<Dim>& contacts = work.scratch[b].contact;
   for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
     if (pair.a & only(contacts.fields[f].group))

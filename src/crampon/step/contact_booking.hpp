@@ -60,10 +60,10 @@ double friction_work(const ContactPair<Dim>& pair, const Vec<Dim>& w_end) {
   return share * std::fmax(-0.5 * dot(pair.rubbing, pair.w_start + w_end), 0.);
 }
 
-/// The distance that a pair which weakens by slip has slipped in the step, after Task 4 has left w, m/s.
+/// The distance that a pair whose law remembers slip has slipped in the step, after Task 4 has left w, m/s.
 template <int Dim>
 void note_slip(ContactPair<Dim>& pair, const Vec<Dim>& w, double dt) {
-  if (!std::holds_alternative<SlipWeakeningContact>(*pair.law) || pair.state != ContactState::slip) return;
+  if (pair.law->remembers() != Remembered::slip || pair.state != ContactState::slip) return;
   const Vec<Dim> mean = (w + pair.w_settled) * 0.5;
   pair.history_gain = norm(mean - pair.n * dot(mean, pair.n)) * dt;
 }

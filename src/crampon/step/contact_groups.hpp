@@ -10,8 +10,8 @@ namespace crampon {
 
 /// Are fields on both sides one group? One after another, bonded pairs are pairs like others (N13, conventions 14).
 template <int Dim>
-bool joins(const Model<Dim>& model, const ContactLawSpec& law) {
-  return std::holds_alternative<BondedContact>(law) && model.contact.pairs == ContactPairs::joint;
+bool joins(const Model<Dim>& model, const ContactLaw& law) {
+  return law.joins() && model.contact.pairs == ContactPairs::joint;
 }
 
 /// A signature without the cracks that join: fields of one material that agree in it move as one (conventions 13, 14).

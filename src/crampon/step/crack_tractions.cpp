@@ -56,7 +56,7 @@ StiffestVertex spread_tractions(State<Dim>& state, StepWork<Dim>& work, const Mo
       const Crack<2>& crack = state.cracks.list[c];
       CrackTractionState<2>& t = state.cracks.list[c].traction;
       const std::vector<double>& area = model.tractions[c].area;
-      const double stiffness = largest_stiffness(model.tractions[c].law);
+      const double stiffness = model.tractions[c].law->largest_stiffness();
       for (std::size_t v = 0; v < area.size(); ++v) {
         if (area[v] == 0 || t.history[v].failed != 0) continue;
         t.between[v] = !crack.upper_carriers[v].empty() && !crack.lower_carriers[v].empty();
@@ -102,14 +102,14 @@ void update_tractions<2>(State<2>& state, StepWork<2>& work, const Model<2>& mod
     const CrackTraction& traction = model.tractions[c];
     CrackTractionState<2>& t = state.cracks.list[c].traction;
     const std::vector<double>& area = traction.area;
-    const bool from_outside = std::holds_alternative<PressureTraction>(traction.law);
+    const bool from_outside = traction.law->from_outside();
     for (std::size_t v = 0; v < area.size(); ++v) {
       if (area[v] == 0) continue;
       TractionHistory& history = t.history[v];
       if (history.failed == 0 && t.between[v]) {
         const CrackOpening opening = opening_at(crack, v);
         const Vec<3> place{{crack.plane[v][0], crack.plane[v][1], 0}};
-        const Traction now = update_traction(traction.law, {opening.opening, opening.sliding}, end + state.particles.lead, place, history);
+        const Traction now = update_traction(*traction.law, {opening.opening, opening.sliding}, end + state.particles.lead, place, history);
         const Vec<2> down = vertex_normal(crack, v), tangent{{-down[1], down[0]}};
         t.force[v] = (down * now.normal - tangent * now.shear) * area[v];
         t.stored[v] = now.stored;

@@ -22,8 +22,8 @@ std::optional<CracksBetween<Dim>> cracks_between(const Signature& first, const S
     } else {
       out.name.rest.append(crack.crack);
     }
-    const ContactLawSpec& law = model.law_across(crack.crack);
-    if (crack.side == 0 || std::holds_alternative<NoContact>(law)) continue;
+    const ContactLaw& law = model.law_across(crack.crack);
+    if (crack.side == 0 || law.ignores()) continue;
     const double to_second = first_across == (crack.side > 0) ? 1 : -1;
     if (acting++ == 0) up = to_second, out.as_one = crack;
     n += crack.n * (to_second * up);

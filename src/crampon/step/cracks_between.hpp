@@ -10,7 +10,7 @@ namespace crampon {
 
 template <int Dim>
 struct CracksBetween {
-  const ContactLawSpec* law = nullptr;  ///< the strictest of theirs
+  const ContactLaw* law = nullptr;  ///< the strictest of theirs
   ContactName name;
   CrackAtNode<Dim> as_one;   ///< the first of them, with the mean normal of all
   bool first_above = false;  ///< the first of the two sides is above

@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "crampon/contact/friction.hpp"
 #include "crampon/contact/separation.hpp"
 
 namespace crampon {
@@ -79,7 +78,7 @@ bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Di
   if (depth >= deepest_held && model_.contact.scheme != ContactScheme::literal) return false;
   pair.volume_ratio = relative_volume(place);
   pair.gap = gap(model_.contact.material_detection, place, a, b, pair, pair.n);
-  if (needs_area(*pair.law))
+  if (pair.law->needs_area())
     pair.area = (b.rigid ? area_on_rigid(a, b, depth, pair.n, plane) : area_between(a, b, pair.n)) / place.mirrors.images;
   recall_history(place, a, b, pair);
   return true;
@@ -94,7 +93,7 @@ void FaceToFace<Dim>::part_corner(const MeetingPlace<Dim>& place, const Face<Dim
   const bool given = model_.field_normals[std::size_t{a.field} * model_.fields.size() + b.field] != Vec<Dim>{};
   const ContactDetection detection = model_.contact.material_detection;
   // Where particles were at the start is known of all of a body alone.
-  const bool looks_back = std::holds_alternative<InterfaceContact>(*whole.law) || detection == ContactDetection::displacement;
+  const bool looks_back = whole.law->has_springs() || detection == ContactDetection::displacement;
   if (!by_regression || given || a.rigid || b.rigid || looks_back) return;
   corner_points_.clear();
   for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) {
@@ -118,7 +117,7 @@ void FaceToFace<Dim>::part_corner(const MeetingPlace<Dim>& place, const Face<Dim
     } else {
       pair.gap = gap(detection, place, part_of_a, part_of_b, pair, pair.n);
     }
-    if (needs_area(*pair.law)) pair.area = area_between(part_of_a, part_of_b, pair.n) / place.mirrors.images;
+    if (pair.law->needs_area()) pair.area = area_between(part_of_a, part_of_b, pair.n) / place.mirrors.images;
     pairs.push_back(pair);
   }
 }
@@ -144,8 +143,8 @@ std::pair<Face<Dim>, Face<Dim>> FaceToFace<Dim>::before(const MeetingPlace<Dim>&
 /// What the law asks of the past: on the side of the lower field, above a crack (docs/theory/contact.md, which law).
 template <int Dim>
 void FaceToFace<Dim>::recall_history(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, ContactPair<Dim>& pair) const {
-  if (needs_history(*pair.law)) pair.history = a.history / a.m;
-  if (!std::holds_alternative<InterfaceContact>(*pair.law)) return;
+  if (pair.law->needs_history()) pair.history = a.history / a.m;
+  if (!pair.law->has_springs()) return;
   // Of what lies between the mean positions, the strain and the turn of both sides are not opening.
   const Vec<Dim> start = apart_at_start(a, b);
   Vec<Dim> deformed;
@@ -164,7 +163,7 @@ bool FaceToFace<Dim>::see_across(const MeetingPlace<Dim>& place, const CrackAtNo
   pair.n = crack.n;
   pair.volume_ratio = relative_volume(place);
   pair.gap = gap(model_.contact.detection, place, a, b, pair, crack.N);
-  if (needs_area(*pair.law)) pair.area = area_between(a, b, pair.n) / place.mirrors.images;
+  if (pair.law->needs_area()) pair.area = area_between(a, b, pair.n) / place.mirrors.images;
   recall_history(place, a, b, pair);
   return true;
 }

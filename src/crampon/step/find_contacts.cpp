@@ -32,8 +32,7 @@ class NodeFinder {
     const auto& c = model_.contact;
     const bool by_regression = c.normal == ContactNormal::logistic_regression || c.normal == ContactNormal::linear_regression;
     const bool among_materials = model_.fields.size() > 1 && (by_regression || model_.outlines_tell(c.material_detection));
-    const bool across_cracks = model_.outlines_tell(c.detection) ||
-                               model_.any_law([](const ContactLawSpec& law) { return std::holds_alternative<InterfaceContact>(law); });
+    const bool across_cracks = model_.outlines_tell(c.detection) || model_.any_law([](const ContactLaw& law) { return law.has_springs(); });
     if (among_materials || across_cracks) collect_cloud(across_cracks);
     for (ContactNode<Dim>& node : out_.nodes) {
       read_faces(node);
@@ -227,8 +226,8 @@ class NodeFinder {
     const Face<Dim>& other = facing ? *facing : b;
     ContactPair<Dim> pair;
     pair.law = &model_.law_between(a.field, other.field);
-    if (std::holds_alternative<NoContact>(*pair.law)) return;
-    const bool bonded = std::holds_alternative<BondedContact>(*pair.law);
+    if (pair.law->ignores()) return;
+    const bool bonded = pair.law->joins();
     if (!bonded && !b.rigid && std::fmin(a.m, b.m) < model_.contact.mass_screen * (a.m + b.m)) return;  // conventions 37
     pair.a = a.groups;
     pair.b = b.groups;
@@ -283,7 +282,7 @@ class NodeFinder {
     ContactPair<Dim> pair;
     pair.law = between->law;
     const double fraction = a.m / (a.m + b.m);
-    const bool bonded = std::holds_alternative<BondedContact>(*pair.law);
+    const bool bonded = pair.law->joins();
     if (!bonded && std::fmin(fraction, 1 - fraction) < model_.contact.mass_screen) return;  // conventions 37
     pair.a = a.groups;
     pair.b = b.groups;
@@ -295,7 +294,7 @@ class NodeFinder {
 
   /// Where the node has changed sides of another crack, the pair was known under the other label.
   ContactState previous_state(std::int64_t number, const ContactPair<Dim>& pair) const {
-    if (state_.clock.step == 0 && std::holds_alternative<AdhesiveContact>(*pair.law) && pair.gap <= 0.1 * model_.grid.smallest_cell())
+    if (state_.clock.step == 0 && pair.law->adheres() && pair.gap <= 0.1 * model_.grid.smallest_cell())
       return ContactState::stick;  // glued from the start
     ContactKey key{number, pair.name};
     for (const auto& k : cracks_) {

@@ -83,7 +83,7 @@ class FaceFinder {
     bool any = false;
     for (const std::size_t r : near_) {
       const RigidBody<Dim>& body = model_.rigid_bodies[r];
-      if (std::holds_alternative<NoContact>(model_.law_between(part.field, body.field))) continue;
+      if (model_.law_between(part.field, body.field).ignores()) continue;
       const RigidFaceView<Dim> view = see_face(body, state_.rigid[r].start, x + mean);
       const Vec<Dim> n = normalized(mirrors.mean(-view.out));
       if (n == Vec<Dim>{}) continue;

@@ -6,7 +6,6 @@
 #include <optional>
 #include <tuple>
 
-#include "crampon/contact/friction.hpp"
 #include "crampon/step/rigid_faces.hpp"
 
 namespace crampon {
@@ -85,13 +84,13 @@ class ColumnLinker {
     pair.law = &model_.law_between(first.field, rigid);
     pair.by_gap = true;
     pair.area = column.w * model_.fields[first.field].thickness;
-    if (needs_history(*pair.law)) pair.history = history / m;
+    if (pair.law->needs_history()) pair.history = history / m;
     pair.name.field_a = first.known_as;
     pair.name.field_b = rigid;
     pair.name.others = first.cracks;
     pair.name.face = face_;
     pair.previous = state_.contacts.find({column.name, pair.name});
-    if (state_.clock.step == 0 && std::holds_alternative<AdhesiveContact>(*pair.law) && pair.gap <= 0.1 * model_.grid.smallest_cell())
+    if (state_.clock.step == 0 && pair.law->adheres() && pair.gap <= 0.1 * model_.grid.smallest_cell())
       pair.previous = ContactState::stick;  // glued from the start
     out_.columns.push_back(column);
   }

@@ -254,7 +254,7 @@ void forget_gains(StepWork<Dim>& work, std::size_t b) {
 }
 template <int Dim>
 void put_gain(StepWork<Dim>& work, const ContactColumn<Dim>& column) {
-  if (!needs_history(*column.pair.law) || column.pair.state == ContactState::open) return;
+  if (!column.pair.law->needs_history() || column.pair.state == ContactState::open) return;
   for (std::uint32_t i = column.first; i < column.end; ++i) {
     const auto& at = work.face_contacts.parts[i];
     const FaceNodes<Dim>& nodes = work.scratch[at.block].face_nodes;

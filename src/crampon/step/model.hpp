@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "crampon/contact/edge_map.hpp"
-#include "crampon/contact/friction.hpp"
+#include "crampon/contact/law.hpp"
 #include "crampon/core/function.hpp"
 #include "crampon/core/options.hpp"
 #include "crampon/crack/symmetry_fold.hpp"
@@ -85,7 +85,7 @@ struct CrackTraction {
   TractionLawSpec law;
   double thickness = 1;      ///< m
   std::vector<double> area;  ///< per vertex, m2: of its share of the crack with material on both sides; 0: the law does not act
-  bool acts() const { return !std::holds_alternative<NoTraction>(law); }
+  bool acts() const { return law->acts(); }
 };
 
 /// Forces on particles, or stress on faces of bodies.
@@ -173,18 +173,25 @@ struct Model {
     return std::any_of(tractions.begin(), tractions.end(), [](const CrackTraction& t) { return t.acts(); });
   }
   /// Does some contact law ask for areas, or for what particles remember of contact?
-  bool needs_areas() const { return any_law(needs_area); }
-  bool remembers_contact() const { return any_contact() && any_law(needs_history); }
+  bool needs_areas() const {
+    return any_law([](const ContactLaw& law) { return law.needs_area(); });
+  }
+  bool remembers_contact() const {
+    return any_contact() && any_law([](const ContactLaw& law) { return law.needs_history(); });
+  }
   template <class F>
   bool any_law(F asks) const {
-    return std::any_of(field_laws.begin(), field_laws.end(), asks) || std::any_of(crack_laws.begin(), crack_laws.end(), asks);
+    const auto any = [&](const std::vector<ContactLawSpec>& laws) {
+      return std::any_of(laws.begin(), laws.end(), [&](const ContactLawSpec& law) { return asks(*law); });
+    };
+    return any(field_laws) || any(crack_laws);
   }
   bool any_contact() const { return fields.size() > 1 || !crack_laws.empty(); }
-  const ContactLawSpec& law_between(int a, int b) const {
-    return field_laws[static_cast<std::size_t>(a) * fields.size() + static_cast<std::size_t>(b)];
+  const ContactLaw& law_between(int a, int b) const {
+    return *field_laws[static_cast<std::size_t>(a) * fields.size() + static_cast<std::size_t>(b)];
   }
   /// Images of cracks in symmetry planes, which have the same laws, follow the cracks (CrackView::seen).
-  const ContactLawSpec& law_across(CrackId crack) const { return crack_laws[crack % crack_laws.size()]; }
+  const ContactLaw& law_across(CrackId crack) const { return *crack_laws[crack % crack_laws.size()]; }
   bool is_rigid(std::uint16_t field) const { return fields[field].rigid; }
   bool ignores_cracks(std::uint16_t field) const { return fields[field].ignores_cracks; }
 };

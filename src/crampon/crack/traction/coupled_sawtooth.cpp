@@ -50,11 +50,10 @@ double CoupledSawtooth::largest_stiffness() const {
   return std::max(normal.strength / normal.last_opening, shear.strength / shear.last_opening) / lambda_p;
 }
 
-const Declaration<CoupledSawtoothInput>& CoupledSawtoothInput::declaration() {
-  using Input = CoupledSawtoothInput;
+const Declaration<CoupledSawtoothInput>& CoupledSawtooth::declaration() {
   static const auto d =
       Declaration<Input>(
-          "coupled_sawtooth",
+          name,
           "Triangular over one effective opening. Conserves energy on curved paths only if peak_opening/final_opening is the "
           "same for both modes; otherwise prefer mixed_mode.")
           .record("normal", &Input::normal, TriangularInput::declaration, "curve of pure opening", Presence::required)

@@ -30,6 +30,8 @@ struct CubicCurve {
 };
 
 struct CubicInput : PeakInput {
+  static constexpr const char* name = "cubic";
+  static CubicInput example();  ///< of a real crack, for tests
   static const Declaration<CubicInput>& declaration();
   CubicCurve curve() const;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "crampon/core/declaration.hpp"
 #include "crampon/crack/traction/curve.hpp"
@@ -33,12 +34,44 @@ ModeState mode_state(const Curve& curve, double largest_before, double opening) 
   return s;
 }
 
-template <class Curve>
+/// The input of such a law: a sub-table for each mode.
+template <class CurveInput>
+struct DecoupledInput {
+  CurveInput normal, shear;
+  double mode_exponent = 1;
+};
+
+template <class CurveInput>
+Declaration<DecoupledInput<CurveInput>> decoupled_declaration() {
+  using Input = DecoupledInput<CurveInput>;
+  const Record& curve = CurveInput::declaration();
+  return Declaration<Input>(curve.name(), curve.help() + " Opening and sliding do not feel each other before failure.")
+      .record("normal", &Input::normal, CurveInput::declaration, "curve of the opening", Presence::required)
+      .record("shear", &Input::shear, CurveInput::declaration, "curve of the sliding", Presence::required)
+      .quantity("mode_exponent", &Input::mode_exponent, "1", Bounds::any(),
+                "m in the failure rule (G_I/G_Ic)^m + (G_II/G_IIc)^m = 1; 0 or less: infinite, each mode fails by itself");
+}
+
+template <class CurveInput>
 struct DecoupledTraction {
+  using Input = DecoupledInput<CurveInput>;
+  using Curve = decltype(CurveInput().curve());
   Curve normal, shear;
   double mode_exponent = 1;  ///< m; 0 or less: infinite, modes fail each by itself
 
+  static constexpr const char* name = CurveInput::name;
+  static constexpr bool acts = true;
   static constexpr bool acts_closed = false;
+  static constexpr bool from_outside = false;
+  static DecoupledTraction make(const Input& in) { return {in.normal.curve(), in.shear.curve(), in.mode_exponent}; }
+  static std::vector<DecoupledTraction> examples() {
+    const Curve curve = CurveInput::example().curve();
+    return {{curve, curve, 1}, {curve, curve, 0}};
+  }
+  static const Declaration<Input>& declaration() {
+    static const auto d = decoupled_declaration<CurveInput>();
+    return d;
+  }
 
   Traction respond(const PerMode& opening, double, const Vec<3>&, TractionHistory& history) const {
     const PerMode before = {history.normal_opening, history.shear_opening};
@@ -85,23 +118,5 @@ struct DecoupledTraction {
     return std::pow(g_n / normal.toughness(), mode_exponent) + std::pow(g_t / shear.toughness(), mode_exponent) >= 1;
   }
 };
-
-/// The input of such a law: a sub-table for each mode.
-template <class CurveInput>
-struct DecoupledInput {
-  CurveInput normal, shear;
-  double mode_exponent = 1;
-};
-
-template <class CurveInput>
-Declaration<DecoupledInput<CurveInput>> decoupled_declaration() {
-  using Input = DecoupledInput<CurveInput>;
-  const Record& curve = CurveInput::declaration();
-  return Declaration<Input>(curve.name(), curve.help() + " Opening and sliding do not feel each other before failure.")
-      .record("normal", &Input::normal, CurveInput::declaration, "curve of the opening", Presence::required)
-      .record("shear", &Input::shear, CurveInput::declaration, "curve of the sliding", Presence::required)
-      .quantity("mode_exponent", &Input::mode_exponent, "1", Bounds::any(),
-                "m in the failure rule (G_I/G_Ic)^m + (G_II/G_IIc)^m = 1; 0 or less: infinite, each mode fails by itself");
-}
 
 }  // namespace crampon

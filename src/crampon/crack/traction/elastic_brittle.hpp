@@ -17,6 +17,8 @@ struct BrittleCurve {
 };
 
 struct BrittleInput : PeakInput {
+  static constexpr const char* name = "elastic_brittle";
+  static BrittleInput example();  ///< of a real crack, for tests
   static const Declaration<BrittleInput>& declaration();
   BrittleCurve curve() const;
 };

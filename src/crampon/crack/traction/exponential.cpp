@@ -64,10 +64,15 @@ ExponentialCurve ExponentialInput::curve() const {
   return c;
 }
 
+ExponentialInput ExponentialInput::example() {
+  ExponentialInput in;
+  in.strength = 5e6, in.toughness = 300, in.peak_opening = 1e-5, in.decay = 4;
+  return in;
+}
+
 const Declaration<ExponentialInput>& ExponentialInput::declaration() {
   static const auto d =
-      with_elastic_peak(
-          Declaration<ExponentialInput>("exponential", "Straight up to the strength, exponential decay that ends at nothing."))
+      with_elastic_peak(Declaration<ExponentialInput>(name, "Straight up to the strength, exponential decay that ends at nothing."))
           .quantity("decay", &ExponentialInput::decay, "1", Bounds::between(1e-3, 50),
                     "exponent of the decay over the whole falling part; near 0 the curve is triangular", Presence::required)
           .check([](const ExponentialInput& in, Diagnostics& diagnostics) {

@@ -22,6 +22,8 @@ struct ExponentialCurve {
 
 struct ExponentialInput : ElasticPeakInput {
   double decay = 0;
+  static constexpr const char* name = "exponential";
+  static ExponentialInput example();  ///< of a real crack, for tests
   static const Declaration<ExponentialInput>& declaration();
   ExponentialCurve curve() const;
 };

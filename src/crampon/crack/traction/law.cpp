@@ -2,29 +2,17 @@
 
 namespace crampon {
 
-Traction update_traction(const TractionLawSpec& law, const PerMode& opening, double time, const Vec<3>& x, TractionHistory& history) {
-  return std::visit(
-      [&](const auto& l) {
-        PerMode u = opening;
-        if (!l.acts_closed && u.normal < 0) u.normal = 0;
-        const Traction T = history.failed != 0 ? Traction{} : l.respond(u, time, x, history);
-        history.work_normal += 0.5 * (history.normal_traction + T.normal) * (u.normal - history.normal_opening);
-        history.work_shear += 0.5 * (history.shear_traction + T.shear) * (u.shear - history.shear_opening);
-        history.normal_traction = T.normal;
-        history.shear_traction = T.shear;
-        history.normal_opening = u.normal;
-        history.shear_opening = u.shear;
-        return T;
-      },
-      law);
-}
-
-double largest_stiffness(const TractionLawSpec& law) {
-  return std::visit([](const auto& l) { return l.largest_stiffness(); }, law);
-}
-
-PerMode toughness(const TractionLawSpec& law) {
-  return std::visit([](const auto& l) { return l.toughness(); }, law);
+Traction update_traction(const TractionLaw& law, const PerMode& opening, double time, const Vec<3>& x, TractionHistory& history) {
+  PerMode u = opening;
+  if (!law.acts_closed() && u.normal < 0) u.normal = 0;
+  const Traction T = history.failed != 0 ? Traction{} : law.respond(u, time, x, history);
+  history.work_normal += 0.5 * (history.normal_traction + T.normal) * (u.normal - history.normal_opening);
+  history.work_shear += 0.5 * (history.shear_traction + T.shear) * (u.shear - history.shear_opening);
+  history.normal_traction = T.normal;
+  history.shear_traction = T.shear;
+  history.normal_opening = u.normal;
+  history.shear_opening = u.shear;
+  return T;
 }
 
 }  // namespace crampon

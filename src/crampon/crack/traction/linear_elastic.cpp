@@ -17,10 +17,12 @@ PerMode LinearElasticTraction::toughness() const {
   return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 }
 
+std::vector<LinearElasticTraction> LinearElasticTraction::examples() { return {{1e11, 2e11}}; }
+
 const Declaration<LinearElasticTraction>& LinearElasticTraction::declaration() {
   using Law = LinearElasticTraction;
   static const auto d =
-      Declaration<Law>("linear_elastic", "Springs between the faces that never fail.")
+      Declaration<Law>(name, "Springs between the faces that never fail.")
           .quantity("normal_stiffness", &Law::normal_stiffness, "Pa/m", Bounds::non_negative(), "traction per opening", Presence::required)
           .quantity("shear_stiffness", &Law::shear_stiffness, "Pa/m", Bounds::non_negative(), "traction per sliding", Presence::required);
   return d;

@@ -100,10 +100,15 @@ const Family<SofteningCurve>& softening_curves() {
   return family;
 }
 
+std::vector<MixedModeTraction> MixedModeTraction::examples() {
+  return {{TriangularInput::example().curve(), CubicInput::example().curve()},
+          {ExponentialInput::example().curve(), TrilinearInput::example().curve()}};
+}
+
 const Declaration<MixedModeTraction>& MixedModeTraction::declaration() {
   static const auto d =
       Declaration<MixedModeTraction>(
-          "mixed_mode", "Any two curves, coupled by one damage variable; conserves energy on every path. The choice for mixed mode.")
+          name, "Any two curves, coupled by one damage variable; conserves energy on every path. The choice for mixed mode.")
           .one_of("normal", &MixedModeTraction::normal, softening_curves, "curve of pure opening", Presence::required)
           .one_of("shear", &MixedModeTraction::shear, softening_curves, "curve of pure sliding", Presence::required);
   return d;

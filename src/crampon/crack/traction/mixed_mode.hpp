@@ -1,5 +1,6 @@
 #pragma once
 #include <variant>
+#include <vector>
 
 #include "crampon/core/vector.hpp"
 #include "crampon/crack/traction/cubic.hpp"
@@ -20,7 +21,13 @@ const Family<SofteningCurve>& softening_curves();
 struct MixedModeTraction {
   SofteningCurve normal, shear;
 
+  using Input = MixedModeTraction;
+  static constexpr const char* name = "mixed_mode";
+  static constexpr bool acts = true;
   static constexpr bool acts_closed = false;
+  static constexpr bool from_outside = false;
+  static MixedModeTraction make(const Input& input) { return input; }
+  static std::vector<MixedModeTraction> examples();
   Traction respond(const PerMode& opening, double time, const Vec<3>& x, TractionHistory& history) const;
   double largest_stiffness() const;
   PerMode toughness() const;

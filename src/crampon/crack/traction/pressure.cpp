@@ -15,9 +15,13 @@ Traction PressureTraction::respond(const PerMode& u, double time, const Vec<3>& 
 
 PerMode PressureTraction::toughness() const { return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}; }
 
+std::vector<PressureTraction> PressureTraction::examples() {
+  return {{ValueFunction::constant(1e5), {}}, {ValueFunction::constant(1e5), 1e-6}};
+}
+
 const Declaration<PressureTraction>& PressureTraction::declaration() {
   using Law = PressureTraction;
-  static const auto d = Declaration<Law>("pressure", "A pressure in the crack that pushes its faces apart.")
+  static const auto d = Declaration<Law>(name, "A pressure in the crack that pushes its faces apart.")
                             .function("pressure", &Law::pressure, "Pa", "pressure, of time and place", Presence::required)
                             .quantity("min_opening", &Law::min_opening, "m", Bounds::any(),
                                       "the pressure acts only where the crack is open further than this; left out: everywhere");

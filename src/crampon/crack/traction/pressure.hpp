@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "crampon/core/declaration.hpp"
 #include "crampon/core/vector.hpp"
@@ -12,7 +13,13 @@ struct PressureTraction {
   ValueFunction pressure;             ///< p(t, x), Pa
   std::optional<double> min_opening;  ///< acts only at larger openings, m
 
+  using Input = PressureTraction;
+  static constexpr const char* name = "pressure";
+  static constexpr bool acts = true;
   static constexpr bool acts_closed = true;
+  static constexpr bool from_outside = true;
+  static PressureTraction make(const Input& input) { return input; }
+  static std::vector<PressureTraction> examples();
   Traction respond(const PerMode& opening, double time, const Vec<3>& x, TractionHistory& history) const;
   double largest_stiffness() const { return 0; }
   PerMode toughness() const;

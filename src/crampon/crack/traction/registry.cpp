@@ -1,41 +1,52 @@
+#include "crampon/crack/traction/coupled_sawtooth.hpp"
+#include "crampon/crack/traction/cubic.hpp"
+#include "crampon/crack/traction/decoupled.hpp"
+#include "crampon/crack/traction/elastic_brittle.hpp"
+#include "crampon/crack/traction/exponential.hpp"
 #include "crampon/crack/traction/law.hpp"
+#include "crampon/crack/traction/linear_elastic.hpp"
+#include "crampon/crack/traction/mixed_mode.hpp"
+#include "crampon/crack/traction/none.hpp"
+#include "crampon/crack/traction/pressure.hpp"
+#include "crampon/crack/traction/triangular.hpp"
+#include "crampon/crack/traction/trilinear.hpp"
+#include "crampon/crack/traction/user_curve.hpp"
 
 namespace crampon {
 
-namespace {
+namespace detail {
+std::vector<TractionLawSpec>& examples_of_traction_laws() {
+  static std::vector<TractionLawSpec> all;
+  return all;
+}
+}  // namespace detail
 
-/// Adds the law that has a curve of this kind in each mode.
-template <class CurveInput>
-void add_decoupled(Family<TractionLawSpec>& family) {
-  static const auto declaration = decoupled_declaration<CurveInput>();
-  family.add(declaration, [](const DecoupledInput<CurveInput>& in) -> TractionLawSpec {
-    return DecoupledTraction<decltype(in.normal.curve())>{in.normal.curve(), in.shear.curve(), in.mode_exponent};
-  });
+std::vector<TractionLawSpec> traction_law_examples() {
+  traction_laws();  // laws join as the family is made
+  return detail::examples_of_traction_laws();
 }
 
-}  // namespace
-
-const Declaration<NoTraction>& NoTraction::declaration() {
-  static const auto d = Declaration<NoTraction>("none", "No traction.");
-  return d;
+TractionLawSpec::TractionLawSpec() {
+  static const auto none = std::make_shared<const TractionLawOf<NoTraction>>(NoTraction{});
+  law_ = none;
 }
 
-const Family<TractionLawSpec>& traction_laws() {
-  static const auto family = [] {
+// A further law is one file like linear_elastic.hpp and one line here; a further curve for each mode, a file like cubic.hpp and a line with
+// DecoupledTraction.
+Family<TractionLawSpec>& traction_laws() {
+  static Family<TractionLawSpec> family = [] {
     Family<TractionLawSpec> f("traction law", "law", "What holds the faces of a crack together, or pushes them apart.");
-    f.add(NoTraction::declaration());
-    add_decoupled<TriangularInput>(f);
-    add_decoupled<TrilinearInput>(f);
-    add_decoupled<CubicInput>(f);
-    add_decoupled<ExponentialInput>(f);
-    add_decoupled<UserCurveInput>(f);
-    add_decoupled<BrittleInput>(f);
-    f.add(CoupledSawtoothInput::declaration(), [](const CoupledSawtoothInput& in) -> TractionLawSpec {
-      return CoupledSawtooth{in.normal.curve(), in.shear.curve()};
-    });
-    f.add(MixedModeTraction::declaration());
-    f.add(LinearElasticTraction::declaration());
-    f.add(PressureTraction::declaration());
+    add_traction_law<NoTraction>(f);
+    add_traction_law<DecoupledTraction<TriangularInput>>(f);
+    add_traction_law<DecoupledTraction<TrilinearInput>>(f);
+    add_traction_law<DecoupledTraction<CubicInput>>(f);
+    add_traction_law<DecoupledTraction<ExponentialInput>>(f);
+    add_traction_law<DecoupledTraction<UserCurveInput>>(f);
+    add_traction_law<DecoupledTraction<BrittleInput>>(f);
+    add_traction_law<CoupledSawtooth>(f);
+    add_traction_law<MixedModeTraction>(f);
+    add_traction_law<LinearElasticTraction>(f);
+    add_traction_law<PressureTraction>(f);
     return f;
   }();
   return family;

@@ -7,9 +7,15 @@ TriangularCurve TriangularInput::curve() const {
   return {sigma_c, peak_opening ? *peak_opening : sigma_c / *stiffness, final_opening ? *final_opening : 2 * *toughness / sigma_c};
 }
 
+TriangularInput TriangularInput::example() {
+  TriangularInput in;
+  in.strength = 5e6, in.toughness = 300, in.peak_opening = 1e-5;
+  return in;
+}
+
 const Declaration<TriangularInput>& TriangularInput::declaration() {
   static const auto d =
-      with_elastic_peak(Declaration<TriangularInput>("triangular", "Straight up to the strength, straight down to nothing (sawtooth)."))
+      with_elastic_peak(Declaration<TriangularInput>(name, "Straight up to the strength, straight down to nothing (sawtooth)."))
           .check([](const TriangularInput& in, Diagnostics& diagnostics) {
             if (!check_peak(in, diagnostics)) return;
             const TriangularCurve c = in.curve();

@@ -22,6 +22,8 @@ struct TriangularCurve {
 };
 
 struct TriangularInput : ElasticPeakInput {
+  static constexpr const char* name = "triangular";
+  static TriangularInput example();  ///< of a real crack, for tests
   static const Declaration<TriangularInput>& declaration();
   TriangularCurve curve() const;
 };

@@ -45,9 +45,15 @@ TrilinearCurve TrilinearInput::curve() const {
   return c;
 }
 
+TrilinearInput TrilinearInput::example() {
+  TrilinearInput in;
+  in.strength = 5e6, in.final_opening = 1e-4, in.peak_opening = 1e-5, in.knee_stress = 1.5e6, in.knee_opening = 4e-5;
+  return in;
+}
+
 const Declaration<TrilinearInput>& TrilinearInput::declaration() {
   static const auto d =
-      with_elastic_peak(Declaration<TrilinearInput>("trilinear", "Three straight pieces: up to the strength, to a knee, and to nothing."))
+      with_elastic_peak(Declaration<TrilinearInput>(name, "Three straight pieces: up to the strength, to a knee, and to nothing."))
           .quantity("knee_stress", &TrilinearInput::knee_stress, "Pa", Bounds::positive(), "traction at the knee", Presence::required)
           .quantity("knee_opening", &TrilinearInput::knee_opening, "m", Bounds::positive(), "opening at the knee", Presence::required)
           .check([](const TrilinearInput& in, Diagnostics& diagnostics) {

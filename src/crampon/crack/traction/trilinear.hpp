@@ -25,6 +25,8 @@ struct TrilinearCurve {
 
 struct TrilinearInput : ElasticPeakInput {
   double knee_stress = 0, knee_opening = 0;
+  static constexpr const char* name = "trilinear";
+  static TrilinearInput example();  ///< of a real crack, for tests
   static const Declaration<TrilinearInput>& declaration();
   TrilinearCurve curve() const;
 };

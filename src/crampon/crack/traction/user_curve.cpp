@@ -69,9 +69,15 @@ double UserCurve::dissipated(double u) const {
   return dissipated_of(W_[k] + p.area(u - u_[k]), p.value(u - u_[k]), u);
 }
 
+UserCurveInput UserCurveInput::example() {
+  UserCurveInput in;
+  in.openings = {1e-5, 2.5e-5, 4e-5, 1e-4}, in.stresses = {5e6, 4.6e6, 2e6, 0};
+  return in;
+}
+
 const Declaration<UserCurveInput>& UserCurveInput::declaration() {
   static const auto d =
-      Declaration<UserCurveInput>("user_curve", "A table of traction over opening: elastic up to its first point, which is the peak.")
+      Declaration<UserCurveInput>(name, "A table of traction over opening: elastic up to its first point, which is the peak.")
           .quantities("openings", &UserCurveInput::openings, "m", Bounds::positive(), "openings, rising; the last one ends the law",
                       Presence::required, Length::at_least(2))
           .quantities("stresses", &UserCurveInput::stresses, "Pa", Bounds::non_negative(),

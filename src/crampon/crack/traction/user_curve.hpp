@@ -29,6 +29,8 @@ class UserCurve {
 
 struct UserCurveInput {
   std::vector<double> openings, stresses;
+  static constexpr const char* name = "user_curve";
+  static UserCurveInput example();  ///< of a real crack, for tests
   static const Declaration<UserCurveInput>& declaration();
   UserCurve curve() const { return {openings, stresses}; }
 };

@@ -41,7 +41,9 @@ class Cells {
     for (const Column<Facts>& column : table) {
       if (column.is_shown && !column.is_shown(facts)) continue;
       const int first = column.axes == Axes::of_turning && Dim == 2 ? 2 : 0;
-      const int end = column.axes == Axes::none ? 1 : column.axes == Axes::of_turning ? 3 : Dim;
+      int end = Dim;
+      if (column.axes == Axes::none) end = 1;
+      if (column.axes == Axes::of_turning) end = 3;
       for (int axis = first; axis < end; ++axis) {
         if (of_ == Of::header)
           columns_.push_back({named(column.is.pattern, axis, thing), column.is.unit});
