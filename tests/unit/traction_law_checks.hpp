@@ -87,7 +87,7 @@ inline void check_accounts_for_work(const TractionLaw& law) {
         most = std::max(most, spent);
         error = std::max(error, std::abs(history.work_normal + history.work_shear - spent));
       }
-      EXPECT_LE(error, (to_failure ? 400. : 1e4 / steps) / steps * most) << "work is lost or made";
+      EXPECT_LE(error, (history.failed != 0 ? 200. : 1e4 / steps) / steps * most) << "work is lost or made";
     }
   }
 }
