@@ -1,6 +1,5 @@
 #pragma once
-/// What every contact law must do, as checks of one law: contact_family_test applies them to all that are registered, and toy_contact_test shows that
-/// each check finds a law that breaks it.
+/// What every contact law must do, as checks of one law: contact_family_test applies them to all that are registered.
 
 #include <gtest/gtest.h>
 

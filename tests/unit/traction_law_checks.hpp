@@ -1,6 +1,5 @@
 #pragma once
-/// What every traction law must do, as checks of one law: traction_family_test applies them to all that are registered, and toy_traction_test shows that
-/// each check finds a law that breaks it.
+/// What every traction law must do, as checks of one law: traction_family_test applies them to all that are registered.
 
 #include <gtest/gtest.h>
 
