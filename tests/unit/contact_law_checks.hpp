@@ -1,5 +1,6 @@
 #pragma once
-/// What every contact law must do, as checks of one law: contact_family_test applies them to all that are registered.
+/// What every contact law must do, as checks of one law: contact_family_test applies them to all that are registered, and
+/// toy_contact_test shows that checks find laws that break them.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What every traction law must do, as checks of one law: traction_family_test applies them to all that are registered.
+/// What every traction law must do, as checks of one law: traction_family_test applies them to all that are registered, and
+/// toy_traction_test shows that checks find laws that break them.
 
 #include <gtest/gtest.h>
 
