@@ -127,6 +127,8 @@ std::vector<Stage<Dim>> stages() {
   constexpr auto always = nullptr;
   constexpr auto boundary_first = boundary_comes_first<Dim>;
   constexpr auto contact_first = contact_comes_first<Dim>;
+  // Domains stretch with the velocities of Task 6 as particles move, whenever stress does.
+  constexpr Data by_domains = Shape::has_domains ? velocities : none, of_domains = Shape::has_domains ? stress : none;
   return {
       once<Dim, reorder<Dim, Shape>>("re-order particles", If::order_is_old, {motion, none, order | motion | stress | slip}),
       once<Dim, move_rigid_bodies<Dim>>("move rigid bodies", If::rigid_bodies_move, {rigid, none, rigid}),
@@ -154,7 +156,8 @@ std::vector<Stage<Dim>> stages() {
       blocks<Dim, assemble_start_momenta<Dim, Shape>, assemble_contact_sums<Dim, Shape>, find_contacts<Dim, Shape>,
              find_face_nodes<Dim, Shape>, impose_symmetry<Dim>, run_where<Dim, boundary_first, impose_start_momenta<Dim>>,
              in_task<Dim, start_meeting_faces<Dim>, two>>(
-          "contact and boundaries", always, {fields | shared | rotations | contacts | prescribed | rigid, tiles | motion, momenta | pairs}),
+          "contact and boundaries", always,
+          {fields | shared | rotations | contacts | prescribed | rigid, tiles | motion | stress, momenta | pairs}),
       once<Dim, link_face_columns<Dim>, in_task_once<Dim, meet_faces<Dim>, two>>("contact and boundaries", If::rigid_faces_meet,
                                                                                  {pairs | momenta | rigid | contacts, none, pairs}),
       blocks<Dim, in_task<Dim, adjust_contact<Dim>, two>, in_task<Dim, take_face_impulses<Dim>, two>,
@@ -180,8 +183,8 @@ std::vector<Stage<Dim>> stages() {
       blocks<Dim, in_task<Dim, adjust_contact<Dim>, four>, in_task<Dim, take_face_impulses<Dim>, four>, account_body_forces<Dim>,
              find_accelerations<Dim>, sum_couples<Dim>>(
           "update momenta", always, {pairs | momenta | forces | velocities | prescribed, none, answers | velocities | rotations | books}),
-      blocks<Dim, account_loads<Dim, Shape>, account_mirrored_forces<Dim, Shape>>("account loads", always,
-                                                                                  {tiles | motion | stress | prescribed, answers, books}),
+      blocks<Dim, account_loads<Dim, Shape>, account_mirrored_forces<Dim, Shape>>(
+          "account loads", always, {tiles | fields | motion | stress | faces | prescribed, answers, books}),
       blocks<Dim, take_back_body_work<Dim>>("account loads", If::body_works_anew, {momenta | velocities, none, books}),
 
       // Task 5 of XPIC and FMPM: the velocities of nodes by a series
@@ -224,9 +227,10 @@ std::vector<Stage<Dim>> stages() {
 
       // Tasks 5 and 6: stress of each pack is updated and its particles move (USL, MUSL, USAVG), or they move alone (USF).
       blocks<Dim, move_particles<Dim, Shape>>("stress and positions", If::moves_only,
-                                              {motion | fields, answers, motion | slip | order | books}),
-      blocks<Dim, accelerate_and_move_particles<Dim, Shape>>("stress and positions", If::accelerates_and_moves,
-                                                             {motion | fields | rotations, answers, motion | slip | order | books}),
+                                              {motion | fields, answers | by_domains, motion | of_domains | slip | order | books}),
+      blocks<Dim, accelerate_and_move_particles<Dim, Shape>>(
+          "stress and positions", If::accelerates_and_moves,
+          {motion | fields | rotations, answers | by_domains, motion | of_domains | slip | order | books}),
       blocks<Dim, update_stress_and_move_particles<Dim, Shape>>(
           "stress and positions", If::strains_and_moves, {motion | fields, answers | velocities, motion | stress | slip | order | books}),
       blocks<Dim, update_stress_accelerate_and_move_particles<Dim, Shape>>(
@@ -236,8 +240,8 @@ std::vector<Stage<Dim>> stages() {
       // Task 8
       once<Dim, move_cracks<Dim>, update_tractions<Dim>>("move cracks", If::there_are_cracks,
                                                          {motion | momenta | fields, none, cracks | tractions}),
-      once<Dim, end_rigid_motion<Dim>, close_step<Dim>, close_ledger<Dim>, check_health<Dim, Shape>>("close the step", always,
-                                                                                                     {books | motion, none, order | rigid}),
+      once<Dim, end_rigid_motion<Dim>, close_step<Dim>, close_ledger<Dim>, check_health<Dim, Shape>>(
+          "close the step", always, {books | motion, none, order | motion | cracks | prescribed | rigid}),
   };
 }
 
