@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "crampon/output/stress_measures.hpp"
 
@@ -20,12 +21,10 @@ ParticleQuantity of_stress(const char* name) {
           [&measure](const ParticleView& p, double* o) { *o = measure.of(p.stress, 0); }};
 }
 
-}  // namespace
-
 // A further quantity of all particles is one line here.
-const std::vector<ParticleQuantity>& general_quantities() {
+std::vector<ParticleQuantity>& table() {
   using View = ParticleView;
-  static const std::vector<ParticleQuantity> list = {
+  static std::vector<ParticleQuantity> list = {
       {"velocity", "m/s", 3, true, "velocity", "v", [](const View& p, double* o) { std::copy_n(p.velocity.c.data(), 3, o); }},
       {"displacement", "m", 3, true, "way from where the particle began", "u = x - X",
        [](const View& p, double* o) {
@@ -51,6 +50,17 @@ const std::vector<ParticleQuantity>& general_quantities() {
        "", [](const View& p, double* o) { *o = p.material; }},
   };
   return list;
+}
+
+}  // namespace
+
+const std::vector<ParticleQuantity>& general_quantities() { return table(); }
+
+void add_quantity(ParticleQuantity quantity) {
+  for (const ParticleQuantity& q : table()) {
+    if (q.name == quantity.name) throw std::logic_error("there is a quantity \"" + q.name + "\" already");
+  }
+  table().push_back(std::move(quantity));
 }
 
 std::vector<ParticleQuantity> quantities_of_laws(const std::vector<const MaterialLaw*>& laws) {

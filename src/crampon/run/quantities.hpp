@@ -20,6 +20,8 @@ struct ParticleQuantity {
 
 /// Those that particles of every material have.
 const std::vector<ParticleQuantity>& general_quantities();
+/// Adds one from outside the table, before the first problem is built. Throws std::logic_error where the name is taken.
+void add_quantity(ParticleQuantity quantity);
 
 /// The variables that laws declare, each name once in the order of the laws. Particles of other laws hold NaN, which ParaView and pictures show
 /// in a colour of its own and leave out of the range: zero would say that they have the variable. Throws std::logic_error where a name stands for different things.
