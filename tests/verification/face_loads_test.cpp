@@ -10,7 +10,7 @@
 #include "crampon/run/build_model.hpp"
 #include "crampon/step/advance.hpp"
 #include "crampon/step/face_loads.hpp"
-#include "crampon/step/ledger.hpp"
+#include "crampon/step/particle_sums.hpp"
 #include "run_case.hpp"
 
 namespace crampon::test {

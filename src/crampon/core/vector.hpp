@@ -47,6 +47,14 @@ double norm(const Vec<Dim>& a) {
   return std::sqrt(dot(a, a));
 }
 
+template <int Dim>
+bool is_finite(const Vec<Dim>& a) {
+  for (int k = 0; k < Dim; ++k) {
+    if (!std::isfinite(a[k])) return false;
+  }
+  return true;
+}
+
 /// a/|a|, or zero when a is zero (callers decide what a missing direction means).
 template <int Dim>
 Vec<Dim> normalized(const Vec<Dim>& a) {

@@ -143,7 +143,7 @@ class ProblemChecker {
           "Eq. 30 moves particles with a velocity that does not strain them", "leave positions out, or use shape_functions = \"gimp\"");
   }
 
-  // At a thousand times, when it varies; what falls between them stops the run (step/guard.cpp).
+  // At a thousand times, when it varies; what falls between them stops the run (step/verbs/check_prescribed.cpp).
   void check_damping(const char* key, const ValueFunction& damping) {
     const double end = problem_.time.end.value_or(1);
     constexpr int samples = 1000;

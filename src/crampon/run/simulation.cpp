@@ -17,9 +17,9 @@
 #include "crampon/shape/registry.hpp"
 #include "crampon/step/advance.hpp"
 #include "crampon/step/face_loads.hpp"
-#include "crampon/step/ledger.hpp"
+#include "crampon/step/lay_out_blocks.hpp"
+#include "crampon/step/particle_sums.hpp"
 #include "crampon/step/particle_view.hpp"
-#include "crampon/step/reorder.hpp"
 
 namespace crampon {
 

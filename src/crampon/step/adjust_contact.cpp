@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crampon/step/boundary.hpp"
 #include "crampon/step/contact_booking.hpp"
+#include "crampon/step/fixed_components.hpp"
 
 namespace crampon {
 

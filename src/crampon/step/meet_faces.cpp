@@ -5,8 +5,8 @@
 
 #include "crampon/contact/pair_response.hpp"
 #include "crampon/core/parallel.hpp"
-#include "crampon/step/boundary.hpp"
 #include "crampon/step/contact_booking.hpp"
+#include "crampon/step/fixed_components.hpp"
 
 namespace crampon {
 

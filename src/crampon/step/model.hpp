@@ -206,4 +206,11 @@ bool updates_stress_last(const Model<Dim>& model) {
   return model.stress_update != StressUpdate::usf;
 }
 
+/// Time by which positions lead velocities in a step of dt, s: half of it, so that forces find them in the middle of the coming step
+/// (docs/theory/step.md, time of positions). Nothing with N03 Eq. 30, which is taken as it stands.
+template <int Dim>
+double position_lead(const Model<Dim>& model, double dt) {
+  return model.positions == PositionUpdate::strain ? 0.5 * dt : 0.;
+}
+
 }  // namespace crampon

@@ -2,7 +2,7 @@
 
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/interpolate.hpp"
-#include "crampon/step/reorder.hpp"
+#include "crampon/step/lay_out_blocks.hpp"
 #include "crampon/step/rigid_motion.hpp"
 #include "crampon/step/rotation.hpp"
 #include "crampon/step/stress_pass.hpp"

@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include "crampon/step/lead_positions.hpp"
-
 namespace crampon {
 
 namespace {
@@ -77,25 +75,7 @@ void start_rigid_motion(State<Dim>& state, const Model<Dim>& model, double dt) {
   }
 }
 
-template <int Dim>
-void move_rigid_bodies(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
-  start_rigid_motion(state, model, work.now.dt);
-}
-
-template <int Dim>
-void end_rigid_motion(State<Dim>& state) {
-  for (RigidMotion<Dim>& motion : state.rigid) {
-    motion.start = motion.end;
-    motion.present = motion.present_end;
-  }
-}
-
-#define CRAMPON_INSTANTIATE(DIM)                                                        \
-  template void start_rigid_motion<DIM>(State<DIM>&, const Model<DIM>&, double);        \
-  template void move_rigid_bodies<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&); \
-  template void end_rigid_motion<DIM>(State<DIM>&);
-CRAMPON_INSTANTIATE(2)
-CRAMPON_INSTANTIATE(3)
-#undef CRAMPON_INSTANTIATE
+template void start_rigid_motion<2>(State<2>&, const Model<2>&, double);
+template void start_rigid_motion<3>(State<3>&, const Model<3>&, double);
 
 }  // namespace crampon

@@ -11,10 +11,6 @@ namespace crampon {
 template <int Dim>
 void start_rigid_motion(State<Dim>& state, const Model<Dim>& model, double dt);
 
-/// The same for the step at hand.
-template <int Dim>
-void move_rigid_bodies(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
-
 /// Puts the particles of rigid bodies in a block where their bodies are at the start or the end of the step, with their velocities. f(x) is told
 /// every position.
 template <int Dim, class F>
@@ -34,9 +30,5 @@ void place_rigid_particles(State<Dim>& state, StepWork<Dim>& work, const Model<D
     }
   }
 }
-
-/// The next step starts where this one ended. Serial.
-template <int Dim>
-void end_rigid_motion(State<Dim>& state);
 
 }  // namespace crampon

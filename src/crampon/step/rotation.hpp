@@ -13,11 +13,6 @@
 
 namespace crampon {
 
-/// At the start of a run: the pieces of material, and about which axes they may turn: rigid bodies not at all, a piece at a symmetry plane about
-/// the normal of that plane alone. Whatever is a piece at the start counts as one for good (step/find_pieces.cpp).
-template <int Dim>
-void start_rotations(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
-
 /// Centre, inertia and spin of every piece, from what project_momentum() has summed up. Task 1.
 template <int Dim>
 void find_rotations(State<Dim>& state, StepWork<Dim>& work);

@@ -6,7 +6,7 @@
 
 #include "crampon/run/build_bodies.hpp"
 #include "crampon/run/notes/notes.hpp"
-#include "crampon/step/boundary.hpp"
+#include "crampon/step/fixed_components.hpp"
 
 namespace crampon {
 

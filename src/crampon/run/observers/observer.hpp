@@ -7,8 +7,8 @@
 #include "crampon/core/error.hpp"
 #include "crampon/input/problem.hpp"
 #include "crampon/run/observers/column.hpp"
-#include "crampon/step/ledger.hpp"
 #include "crampon/step/model.hpp"
+#include "crampon/step/particle_sums.hpp"
 #include "crampon/step/step_work.hpp"
 
 namespace crampon {

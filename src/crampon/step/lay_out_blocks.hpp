@@ -1,14 +1,10 @@
 #pragma once
+/// Blocks as the order of particles has them (docs/theory/space.md), and the parts of their tiles that particles reach.
+
 #include "crampon/step/model.hpp"
 #include "crampon/step/step_work.hpp"
 
 namespace crampon {
-
-/// Orders particles by block, material, base node and id, and finds the blocks they need; every run is padded to whole packs.
-/// Done when some particle has left its block's margin (docs/theory/space.md, order of particles). Particles marked by id == padding_id are
-/// dropped. Throws RunError when a particle is out of the grid.
-template <int Dim, class Shape>
-void reorder(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 /// Builds what follows from the order of particles: blocks, who refers to them or to particles' places, and the boxes that particles reach. For a
 /// state that was saved and loaded this is all that there is to do.

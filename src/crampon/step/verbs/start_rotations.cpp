@@ -1,3 +1,5 @@
+#include "crampon/step/verbs.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -5,7 +7,6 @@
 
 #include "crampon/crack/crossing.hpp"
 #include "crampon/step/assemble.hpp"
-#include "crampon/step/rotation.hpp"
 #include "crampon/step/view_cracks.hpp"
 
 namespace crampon {

@@ -1,4 +1,4 @@
-#include "crampon/step/prescribe.hpp"
+#include "crampon/step/verbs.hpp"
 
 namespace crampon {
 

@@ -1,4 +1,4 @@
-#include "crampon/step/guard.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "crampon/core/error.hpp"
 #include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/instantiate.hpp"
-#include "crampon/step/ledger.hpp"
+#include "crampon/step/particle_sums.hpp"
 #include "crampon/step/particle_view.hpp"
 
 namespace crampon {
@@ -55,14 +55,6 @@ template <int Dim>
 }
 
 template <int Dim>
-bool is_finite(const Vec<Dim>& a) {
-  for (int k = 0; k < Dim; ++k) {
-    if (!std::isfinite(a[k])) return false;
-  }
-  return true;
-}
-
-template <int Dim>
 void report_bad_number(const State<Dim>& state, const StepWork<Dim>& work, std::size_t b) {
   for_particles(state, work, b, [&](std::size_t p, const Run&) {
     if (is_finite(state.particles.position(p)) && is_finite(state.particles.velocity(p))) return;
@@ -93,43 +85,6 @@ void report_fast(const State<Dim>& state, const StepWork<Dim>& work, const Model
        fmt::format("moves more than a cell ({:.4g} m) in one step of {:.4g} s: {:.4g} m/s", model.grid.smallest_cell(), dt, speed),
        "the run is unstable or the step too long: lower the Courant factor or the fixed time step");
 }
-
-}  // namespace
-
-template <int Dim>
-void check_prescribed(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model) {
-  const std::vector<Vec<Dim>>& load_values = work.prescribed.loads;
-  const Vec<Dim>& body_force = work.prescribed.body_force;
-  const double damping = work.prescribed.damping;
-  const auto need = [&](bool is_number, const std::string& what, const std::string& name) {
-    if (is_number) return;
-    throw RunError(fmt::format("step {} (t = {:.6g} s): {}{} is not a number; correct the table or expression that gives it",
-                               state.clock.step + 1, state.clock.time, what, name.empty() ? "" : " \"" + name + "\""));
-  };
-  for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
-    const RigidPose<Dim>& end = state.rigid[b].end;
-    need(is_finite(end.centre) && is_finite(end.velocity) && is_finite(end.spin), "the velocity or spin of", model.rigid_bodies[b].name);
-  }
-  for (const BlockScratch<Dim>& scratch : work.scratch) {
-    for (const FixedComponent& f : scratch.fixed) {
-      need(!f.active || (std::isfinite(f.v_old) && std::isfinite(f.v_new)), "the velocity of", model.conditions[f.condition].name);
-    }
-  }
-  for (std::size_t l = 0; l < load_values.size(); ++l) need(is_finite(load_values[l]), "the value of", model.loads[l].name);
-  need(is_finite(body_force), "the body force", "");
-  const auto check_damping = [&](double value, const char* what) {
-    need(std::isfinite(value), what, "");
-    if (value >= 0) return;
-    throw RunError(
-        fmt::format("step {} (t = {:.6g} s): {} is {:.4g} 1/s, and below zero it drives the motion; correct the table or expression that "
-                    "gives it",
-                    state.clock.step + 1, state.clock.time, what, value));
-  };
-  check_damping(damping, "the damping");
-  check_damping(work.prescribed.particle_damping, "the damping of particles");
-}
-
-namespace {
 
 /// Nothing refers to a particle that is about to be removed: no load, no face, no crack.
 template <int Dim>
@@ -181,10 +136,6 @@ void check_health(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mode
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM) template void check_prescribed<DIM>(const State<DIM>&, const StepWork<DIM>&, const Model<DIM>&);
-CRAMPON_INSTANTIATE(2)
-CRAMPON_INSTANTIATE(3)
-#undef CRAMPON_INSTANTIATE
 #define CRAMPON_INSTANTIATE(DIM, SHAPE) template void check_health<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE

@@ -1,10 +1,9 @@
-#include "crampon/step/lead_positions.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include "crampon/core/parallel.hpp"
-#include "crampon/step/guard.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/lay_out_blocks.hpp"
 #include "crampon/step/move_cracks.hpp"
-#include "crampon/step/reorder.hpp"
 #include "crampon/step/rigid_motion.hpp"
 
 namespace crampon {
@@ -49,15 +48,6 @@ void lead_positions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mo
   if (state.order.must_reorder) reorder<Dim, Shape>(state, work, model);
 }
 
-template <int Dim>
-void watch_motion(State<Dim>& state, StepWork<Dim>& work) {
-  Particles<Dim>& particles = state.particles;
-  particles.watched = work.now.watched && work.now.lead > 0;
-  particles.moved_with.resize_discarding(particles.watched ? particles.size() : 0);
-}
-
-template void watch_motion<2>(State<2>&, StepWork<2>&);
-template void watch_motion<3>(State<3>&, StepWork<3>&);
 #define CRAMPON_INSTANTIATE(DIM, SHAPE) template void lead_positions<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE

@@ -1,0 +1,116 @@
+#pragma once
+/// The verbs of the time step in the order of the table in step/advance.cpp. Each is defined in the file of its name in step/verbs.
+///
+/// A verb with a block works for the particles or the own nodes of that block, in parallel with other blocks. The others run once for all blocks.
+
+#include "crampon/step/model.hpp"
+#include "crampon/step/step_work.hpp"
+
+namespace crampon {
+
+// Before Task 0: order, positions, and what is prescribed.
+
+/// Orders particles by block, material, base node and id, and finds the blocks they need; every run is padded to whole packs.
+/// Done when some particle has left its block's margin (docs/theory/space.md, order of particles). Particles marked by id == padding_id are
+/// dropped. Throws RunError when a particle is out of the grid.
+template <int Dim, class Shape>
+void reorder(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// Poses and velocities of rigid bodies at the start and the end of the step (start_rigid_motion in step/rigid_motion.hpp). Serial, since
+/// expressions are evaluated.
+template <int Dim>
+void move_rigid_bodies(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// At the start of a run: the pieces of material, and about which axes they may turn. Rigid bodies do not turn by this rule at all. A piece at a
+/// symmetry plane turns about the normal of that plane alone. Whatever is a piece at the start counts as one for good.
+template <int Dim>
+void start_rotations(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// Before the first step of a run, and before each that is longer or shorter than the one before: takes particles, crack points and rigid bodies
+/// (after move_rigid_bodies) to where they are in the middle of the step (docs/theory/step.md, time of positions). Orders particles anew where
+/// that takes them too far.
+template <int Dim, class Shape>
+void lead_positions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// Makes ready to keep what particles move with (Particles::moved_with), where someone will look and positions lead.
+template <int Dim>
+void watch_motion(State<Dim>& state, StepWork<Dim>& work);
+
+/// Values of all fixed components at the start and the end of the step. Serial, since expressions are evaluated.
+template <int Dim>
+void evaluate_conditions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// The nodes of a block that are in the shapes of prescribing rigid bodies at the start of the step, and the velocities of the bodies there.
+template <int Dim>
+void prescribe_by_rigid(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Loads, body force and damping at the time of the positions with which the step works, and how particles take up velocities under that
+/// damping (StepValues::rule). Serial, since expressions are evaluated.
+template <int Dim>
+void evaluate_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// Looks at what the input prescribes for this step: motion of rigid bodies, velocities on nodes, loads, body force, damping. Throws RunError
+/// that names the first that is not a number, and for damping below zero.
+template <int Dim>
+void check_prescribed(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model);
+
+// Task 0: velocity fields.
+
+/// In the first step, and when contact by volume is measured against the body as it was: nodal volumes of the uncut body at the
+/// start, sum V_p S (conventions 10).
+template <int Dim, class Shape>
+void record_initial_volume(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+// Task 2 on the own nodes of a block: momenta, contact, and what is prescribed.
+
+/// Takes the normal momentum from nodes on symmetry planes, where mirror images meet. Own nodes of one block. Also in Task 6.
+template <int Dim>
+void impose_symmetry(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Keeps p_int and gives fixed components the prescribed momentum at the start of the step. Own nodes of one block.
+template <int Dim>
+void impose_start_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+// Tasks 3 and 4 on the own nodes of a block: forces, new momenta, accelerations (N03 Eqs. 28, 29).
+
+/// Task 3: the force on fixed components; books reactions. Restores p_int where the rule asks for it (conventions 27).
+template <int Dim>
+void impose_forces(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+// Task 5 of XPIC and FMPM: the velocities of nodes by a series.
+
+/// Takes all momentum from prescribed components: they have no part in further terms. Own nodes of one block.
+template <int Dim>
+void clear_fixed_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+// Tasks 5 and 6: velocities of particles, and the momenta that are extrapolated from them anew.
+
+/// Task 6: the prescribed momentum at the end of the step.
+template <int Dim>
+void impose_end_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Remembers for the next step which components prescribe_by_rigid() has prescribed. Serial.
+template <int Dim>
+void remember_rigid_conditions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+// After Task 8: the end of the step.
+
+/// The next step starts where this one ended. Serial.
+template <int Dim>
+void end_rigid_motion(State<Dim>& state);
+
+/// The step is done: its time has passed.
+template <int Dim>
+void close_step(State<Dim>& state, StepWork<Dim>& work);
+
+/// Adds up the blocks' sums of the step in block order and clears them (docs/theory/contact.md, energy); decides whether particles are
+/// re-ordered.
+template <int Dim>
+void close_ledger(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// Looks at what the blocks reported. Throws RunError naming step, time, particle, its position, the nearest crack and the advice that
+/// usually helps; removes particles that left the grid when the input says so.
+template <int Dim, class Shape>
+void check_health(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+}  // namespace crampon
