@@ -2,7 +2,7 @@
 
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/adjust_contact.hpp"
-#include "crampon/step/assemble_momenta.hpp"
+#include "crampon/step/assemble_momentum.hpp"
 #include "crampon/step/assign_velocity_fields.hpp"
 #include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/crack_tractions.hpp"
@@ -21,9 +21,7 @@
 #include "crampon/step/project_forces.hpp"
 #include "crampon/step/project_loads.hpp"
 #include "crampon/step/project_momentum.hpp"
-#include "crampon/step/rotation.hpp"
 #include "crampon/step/take_velocities.hpp"
-#include "crampon/step/update_momenta.hpp"
 #include "crampon/step/update_velocities.hpp"
 #include "crampon/step/verbs.hpp"
 

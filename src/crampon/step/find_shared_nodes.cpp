@@ -1,6 +1,6 @@
 #include "crampon/step/find_shared_nodes.hpp"
 
-#include "crampon/step/assemble_momenta.hpp"
+#include "crampon/step/assemble_momentum.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/rigid_faces.hpp"
 

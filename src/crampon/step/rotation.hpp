@@ -13,39 +13,13 @@
 
 namespace crampon {
 
-/// Centre, inertia and spin of every piece, from what project_momentum() has summed up. Task 1.
-template <int Dim>
-void find_rotations(State<Dim>& state, StepWork<Dim>& work);
-
-/// Arms of a block's nodes, kg m; its momenta are assembled.
-template <int Dim, class Shape>
-void assemble_arms(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b);
-
 /// Adds w x arm + s w x (w x arm) to the momenta of a block's nodes: velocities of a time that is ahead of the positions by s. Tasks 1, 6, and terms
 /// of a series.
 template <int Dim>
 void carry_rotation(State<Dim>& state, StepWork<Dim>& work, std::size_t b, Spin PieceRotation<Dim>::*spin, double ahead);
 
-/// Couples of the accelerations of a block's nodes. Task 4.
-template <int Dim>
-void sum_couples(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b);
-
-/// The angular momentum that particles get by taking velocities from a block's nodes: v' of Task 4, or a term of a series.
-template <int Dim>
-void sum_rotation_of_motion(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b);
-template <int Dim>
-void sum_rotation_of_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b);
-
-/// How particles answer couples, and the spin that they have after Task 5 by the rule of the step.
-template <int Dim>
-void answer_couples(State<Dim>& state, StepWork<Dim>& work);
-
 /// Gives the particles of a block what answers the couples. Task 5, before what they take from nodes.
 template <int Dim>
 void take_up_couples(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, double dt);
-
-/// The spin of particles that take a term of a series from nodes.
-template <int Dim>
-void find_term_spins(State<Dim>& state, StepWork<Dim>& work);
 
 }  // namespace crampon

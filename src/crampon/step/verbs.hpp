@@ -61,7 +61,17 @@ void check_prescribed(const State<Dim>& state, const StepWork<Dim>& work, const 
 template <int Dim, class Shape>
 void record_initial_volume(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
+// Task 1: particles to tiles, and which nodes several fields share.
+
+/// Centre, inertia and spin of every piece, from what project_momentum() has summed up.
+template <int Dim>
+void find_rotations(State<Dim>& state, StepWork<Dim>& work);
+
 // Task 2 on the own nodes of a block: momenta, contact, and what is prescribed.
+
+/// Momenta at the start of the step (N03 Eq. 26), with the rotation that they carry.
+template <int Dim, class Shape>
+void assemble_start_momenta(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 /// Takes the normal momentum from nodes on symmetry planes, where mirror images meet. Own nodes of one block. Also in Task 6.
 template <int Dim>
@@ -71,13 +81,56 @@ void impose_symmetry(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b
 template <int Dim>
 void impose_start_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
+// Task 2, when momenta are known: velocities, and faces under load.
+
+/// v = p/m, zero where there is no mass: what the next stress update reads. Also in Task 6.
+template <int Dim>
+void find_velocities(StepWork<Dim>& work, std::size_t block);
+
 // Tasks 3 and 4 on the own nodes of a block: forces, new momenta, accelerations (N03 Eqs. 28, 29).
+
+/// Sums the forces of tiles.
+template <int Dim, class Shape>
+void assemble_forces(StepWork<Dim>& work, std::size_t block);
+
+/// f += m g - damping p, in deformable fields.
+template <int Dim>
+void add_body_forces(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 /// Task 3: the force on fixed components; books reactions. Restores p_int where the rule asks for it (conventions 27).
 template <int Dim>
 void impose_forces(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
+/// p += f dt.
+template <int Dim>
+void add_forces(StepWork<Dim>& work, std::size_t block);
+
+/// Work of the body force, and what damping takes, by the mean of the velocities before and after Task 4.
+template <int Dim>
+void account_body_forces(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// {v', a} = {p, f}/m: what particles read in Task 5; and v' as velocities, where these are read.
+template <int Dim>
+void find_accelerations(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Couples of the accelerations of a block's nodes (step/rotation.hpp).
+template <int Dim>
+void sum_couples(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Where particles do more than add accelerations, takes back half of the work of the body force in Task 4. add_body_work() puts half of that on
+/// the velocities of Task 6 in its place.
+template <int Dim>
+void take_back_body_work(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
 // Task 5 of XPIC and FMPM: the velocities of nodes by a series.
+
+/// The angular momentum that particles get by taking a term of the series from a block's nodes.
+template <int Dim>
+void sum_rotation_of_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// The spin of particles that take a term of the series from nodes.
+template <int Dim>
+void find_term_spins(State<Dim>& state, StepWork<Dim>& work);
 
 /// Takes all momentum from prescribed components: they have no part in further terms. Own nodes of one block.
 template <int Dim>
@@ -85,9 +138,29 @@ void clear_fixed_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size
 
 // Tasks 5 and 6: velocities of particles, and the momenta that are extrapolated from them anew.
 
+/// The angular momentum that particles get by taking v' of Task 4 from a block's nodes.
+template <int Dim>
+void sum_rotation_of_motion(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// How particles answer couples, and the spin that they have after Task 5 by the rule of the step.
+template <int Dim>
+void answer_couples(State<Dim>& state, StepWork<Dim>& work);
+
+/// Task 6: the re-extrapolated momenta (N03 Eq. 31).
+template <int Dim, class Shape>
+void assemble_end_momenta(State<Dim>& state, StepWork<Dim>& work, std::size_t block);
+
 /// Task 6: the prescribed momentum at the end of the step.
 template <int Dim>
 void impose_end_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Task 6: particles are to move with the nodal velocities at hand, and as far as springs between them give way; not where N03 Eq. 30 is chosen.
+template <int Dim>
+void move_with_velocities(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// After Task 6: half of the work of the body force on the velocities that were extrapolated anew (take_back_body_work).
+template <int Dim>
+void add_body_work(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 /// Remembers for the next step which components prescribe_by_rigid() has prescribed. Serial.
 template <int Dim>
