@@ -56,7 +56,8 @@ void find_drift(ContactGroup<Dim>* groups, const ContactPair<Dim>* pairs, int pa
   }
 }
 
-/// What particles are to add to their memory of contact waits on the nodes (forget_gains in step/meet_faces.cpp): {gain, 1} where there is contact.
+/// What particles are to add to their memory of contact waits on the nodes (forget_gains in step/verbs/start_meeting_faces.cpp): {gain, 1} where
+/// there is contact.
 template <int Dim>
 void put_gain(StepWork<Dim>& work, std::size_t b, const ContactNode<Dim>& node, const ContactPair<Dim>& pair) {
   if (!pair.law->needs_history() || (pair.state == ContactState::open && !holds_as_interface(pair))) return;

@@ -67,11 +67,29 @@ void record_initial_volume(State<Dim>& state, StepWork<Dim>& work, const Model<D
 template <int Dim>
 void find_rotations(State<Dim>& state, StepWork<Dim>& work);
 
+/// Marks the own nodes of a block that hold several fields or are near a rigid face (BlockLayers::shared), and assembles momenta where
+/// there may be some.
+template <int Dim, class Shape>
+void find_shared_nodes(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Only where fields or walls meet: tile sums of volume and its gradient, position and original position (N03 Eq. 27; N13 sec. 3).
+template <int Dim, class Shape>
+void project_contact_sums(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
 // Task 2 on the own nodes of a block: momenta, contact, and what is prescribed.
 
 /// Momenta at the start of the step (N03 Eq. 26), with the rotation that they carry.
 template <int Dim, class Shape>
 void assemble_start_momenta(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Adds up the sums of project_contact_sums at the own nodes of a block that hold several fields, and those of the normals of cracks.
+template <int Dim, class Shape>
+void assemble_contact_sums(StepWork<Dim>& work, std::size_t block);
+
+/// Which nodes of deformable bodies meet the faces of rigid ones (docs/theory/contact.md, rigid faces). After find_contacts: what moves as one
+/// at the own nodes of a block, its parts of faces, and the particles before these.
+template <int Dim, class Shape>
+void find_face_nodes(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 /// Takes the normal momentum from nodes on symmetry planes, where mirror images meet. Own nodes of one block. Also in Task 6.
 template <int Dim>
@@ -80,6 +98,26 @@ void impose_symmetry(StepWork<Dim>& work, const Model<Dim>& model, std::size_t b
 /// Keeps p_int and gives fixed components the prescribed momentum at the start of the step. Own nodes of one block.
 template <int Dim>
 void impose_start_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+// Contact of bodies with the faces of rigid ones (docs/theory/contact.md, rigid faces), together with the pairs of the nodes there, in each
+// ContactTask.
+
+/// Before contact of a task at the nodes of a block: velocities of what meets faces; in Task 4, room for what contact is to remember.
+template <int Dim>
+void start_meeting_faces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block, ContactTask task);
+
+/// In what columns nodes meet the faces of rigid bodies, with what normal and gap. Gathers the parts that find_face_nodes has found in all
+/// blocks in columns, and columns that share nodes in sets. Serial.
+template <int Dim>
+void link_face_columns(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// Impulses of all columns, and of the pairs of their nodes.
+template <int Dim>
+void meet_faces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, ContactTask task);
+
+/// Gives the impulses to the nodes of a block: momentum, in Task 4 momentum and force; books energy and reactions.
+template <int Dim>
+void take_face_impulses(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block, ContactTask task);
 
 // Task 2, when momenta are known: velocities, and faces under load.
 

@@ -1,4 +1,4 @@
-#include "crampon/step/find_face_nodes.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "crampon/step/link_face_columns.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "crampon/step/find_shared_nodes.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include "crampon/step/assemble_momentum.hpp"
 #include "crampon/step/instantiate.hpp"

@@ -1,4 +1,4 @@
-#include "crampon/step/meet_faces.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include "crampon/contact/pair_response.hpp"
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/contact_booking.hpp"
+#include "crampon/step/face_meeting.hpp"
 #include "crampon/step/fixed_components.hpp"
 
 namespace crampon {
@@ -13,21 +14,6 @@ namespace crampon {
 namespace {
 
 constexpr int most_sweeps = 200;  // as at nodes (contact/node_solve.cpp)
-
-/// Momentum of a group over its mass, m/s.
-template <int Dim>
-Vec<Dim> velocity_of(const Nodes<Dim>& nodes, const FaceNodes<Dim>& faces, const FaceGroup<Dim>& group) {
-  Vec<Dim> p;
-  for (std::uint32_t s = group.first_slot; s < group.end_slot; ++s) {
-    for (int k = 0; k < Dim; ++k) p[k] += nodes.momentum[faces.slots[s]][k];
-  }
-  return p * (1 / group.m);
-}
-
-template <int Dim>
-const RigidPose<Dim>& pose_in(const State<Dim>& state, std::size_t body, ContactTask task) {
-  return task == ContactTask::two ? state.rigid[body].start : state.rigid[body].end;
-}
 
 /// f(part, group) for the parts of a column.
 template <int Dim, class F>
@@ -245,13 +231,8 @@ double close_pair(State<Dim>& state, StepWork<Dim>& work, ContactColumn<Dim>& co
   return 0;
 }
 
-/// What particles are to add to their memory of contact waits on the nodes in the place of the contact sums, which have done their work:
-/// {gain, 1} where there is contact, else zeros.
-template <int Dim>
-void forget_gains(StepWork<Dim>& work, std::size_t b) {
-  const std::size_t count = work.nodes.layers[b].node.size() * block_nodes<Dim>;
-  for (std::size_t i = 0; i < count; ++i) work.nodes.contact[work.nodes.layers[b].slot(0, 0) + i].r[0] = splat(0.);
-}
+/// What particles are to add to their memory of contact waits on the nodes (forget_gains in step/verbs/start_meeting_faces.cpp): {gain, 1} where
+/// there is contact.
 template <int Dim>
 void put_gain(StepWork<Dim>& work, const ContactColumn<Dim>& column) {
   if (!column.pair.law->needs_history() || column.pair.state == ContactState::open) return;
@@ -265,17 +246,6 @@ void put_gain(StepWork<Dim>& work, const ContactColumn<Dim>& column) {
 }
 
 }  // namespace
-
-template <int Dim>
-void start_meeting_faces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, ContactTask task) {
-  if (task == ContactTask::four && state.particles.contact.size() > 0) forget_gains(work, b);
-  FaceNodes<Dim>& faces = work.scratch[b].face_nodes;
-  const bool imposed_before = fixes_before_contact(model, task);
-  for (FaceGroup<Dim>& group : faces.groups) {
-    group.before = velocity_of(work.nodes, faces, group);
-    group.fixed_axes = imposed_before ? fixed_axes(work, b, group.node) : 0u;
-  }
-}
 
 template <int Dim>
 void meet_faces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, ContactTask task) {
@@ -310,37 +280,7 @@ void meet_faces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model,
   }
 }
 
-template <int Dim>
-void take_face_impulses(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, ContactTask task) {
-  const double dt = work.now.dt;
-  FaceNodes<Dim>& faces = work.scratch[b].face_nodes;
-  BlockLedger<Dim>& ledger = work.scratch[b].ledger;
-  const bool re_extrapolates = model.transfer_in(state.clock.step).re_extrapolates;
-  for (FacePart<Dim>& part : faces.parts) {
-    const FaceGroup<Dim>& group = faces.groups[part.group];
-    if (task == ContactTask::term) continue;
-    const RigidPose<Dim>& pose = pose_in(state, part.body, task);
-    const Vec<Dim> v = pose.velocity_at(group.x);
-    const double given = part.of_rigid.book(task, v, -part.dp, v, re_extrapolates);
-    ledger.boundary_work += given;
-    ledger.contact_loss += given;
-    if (task == ContactTask::four) book_reaction(ledger, part.body, state.rigid[part.body].start, group.x, part.dp * (1 / dt));
-  }
-  for (FaceGroup<Dim>& group : faces.groups) {
-    if (task != ContactTask::term) ledger.contact_loss += group.account.book(task, group.before, group.dp, group.v, re_extrapolates);
-    for (std::uint32_t s = group.first_slot; s < group.end_slot; ++s) {
-      const std::size_t i = faces.slots[s];
-      change_node(work.nodes, i, group.dp * (work.nodes.momentum[i][Dim] / group.m), task, dt);
-    }
-  }
-}
-
-#define CRAMPON_INSTANTIATE(DIM)                                                                                    \
-  template void start_meeting_faces<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t, ContactTask); \
-  template void meet_faces<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, ContactTask);                       \
-  template void take_face_impulses<DIM>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t, ContactTask);
-CRAMPON_INSTANTIATE(2)
-CRAMPON_INSTANTIATE(3)
-#undef CRAMPON_INSTANTIATE
+template void meet_faces<2>(State<2>&, StepWork<2>&, const Model<2>&, ContactTask);
+template void meet_faces<3>(State<3>&, StepWork<3>&, const Model<3>&, ContactTask);
 
 }  // namespace crampon
