@@ -11,15 +11,6 @@ namespace crampon {
 template <int Dim>
 void start_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
-/// What the links of a block's particles sum to over all nodes, how the particles are deformed, and the faces of the outermost ones.
-/// Where stress goes first, laws are behind positions here, and are about to follow with the velocities of nodes.
-template <int Dim, class Shape>
-void weigh_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
-
-/// The traction of each column, and what its links lack. load_values: per load and component, Pa. Serial.
-template <int Dim>
-void find_face_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
-
 /// Sees a force on the pair of a particle, by its slot, and node n of its stencil at lane l, as if no symmetry plane folded the pair, N.
 template <int Dim, class Shape>
 using FaceForceVisitor = std::function<void(std::uint32_t slot, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, int n,

@@ -3,10 +3,29 @@
 
 #include <vector>
 
-#include "crampon/step/model.hpp"
-#include "crampon/step/step_work.hpp"
+#include "crampon/step/packs.hpp"
 
 namespace crampon {
+
+/// f(pack, stencil, lane, index in the stencil, target) for the folded pairs of a block; not those of rigid bodies, whose mass is a volume.
+template <int Dim, class Shape, class F>
+[[gnu::always_inline]] inline void for_folded(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
+                                              const std::vector<std::uint32_t>& packs, F f) {
+  using T = Tile<Dim, Shape>;
+  for_packs<Dim, Shape>(state, work, model, b, packs,
+                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
+                          if (model.is_rigid(model.materials[run.material].field)) return;
+                          for (int l = 0; l < lanes; ++l) {
+                            if (state.particles.is_padding(std::size_t{pack} * lanes + l)) continue;
+                            for (int n = 0; n < T::stencil; ++n) {
+                              const PairTarget& t = targets[l * T::stencil + n];
+                              if (t.mirrored != 0) f(pack, stencil, l, n, t);
+                            }
+                          }
+                        });
+}
+
+inline bool is_flipped(unsigned flip, int k) { return flip >> k & 1u; }
 
 /// Task 3. Nodes apply body force and damping to all their mass. A folded pair has brought them mass of a mirror image, and on an image the
 /// body force acts with the sign of its normal component changed. An image also needs the force that lets it follow a face which speeds up.
@@ -15,12 +34,5 @@ namespace crampon {
 template <int Dim, class Shape>
 void project_mirrored_forces(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t block,
                              NodalVector<Dim>* tiles);
-
-/// After Task 4. The reaction of a plane or a face is the rate at which it changes the momentum of the particles (docs/theory/step.md,
-/// symmetry planes). impose_forces() has booked the part of the nodes on it; this function books the part of the folded pairs. Nodes
-/// computed the work of body force and damping as if none of their mass were that of an image; this function corrects it.
-/// \param load_values  per load and component
-template <int Dim, class Shape>
-void account_mirrored_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 }  // namespace crampon

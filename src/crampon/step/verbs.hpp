@@ -125,6 +125,26 @@ void take_face_impulses(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>
 template <int Dim>
 void find_velocities(StepWork<Dim>& work, std::size_t block);
 
+/// What the links of a block's particles sum to over all nodes, how the particles are deformed, and the faces of the outermost ones.
+/// Where stress goes first, laws are behind positions here, and are about to follow with the velocities of nodes.
+template <int Dim, class Shape>
+void weigh_face_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// The traction of each column, and what its links lack. Serial.
+template <int Dim>
+void find_face_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+// Tasks 2 and 3: stress, and the forces of particles.
+
+/// project_forces() after the stress update of Task 2 (USF, USAVG) with the nodal velocities at hand, pack by pack (N03 Eqs. 34-36).
+template <int Dim, class Shape>
+void update_stress_and_project_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Task 3, for one block: tile sums of internal forces (N03 Eq. 28), of loads and of what keeps rigid bodies on their way. Of body force and
+/// damping only what is special to folded pairs; nodes add the rest.
+template <int Dim, class Shape>
+void project_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
 // Tasks 3 and 4 on the own nodes of a block: forces, new momenta, accelerations (N03 Eqs. 28, 29).
 
 /// Sums the forces of tiles.
@@ -154,6 +174,17 @@ void find_accelerations(StepWork<Dim>& work, const Model<Dim>& model, std::size_
 /// Couples of the accelerations of a block's nodes (step/rotation.hpp).
 template <int Dim>
 void sum_couples(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Work of loads over the step to the block's ledger, f_i . (v_i + v'_i)/2 dt. Where velocities are extrapolated anew, f_i . v_i/2 dt, and
+/// account_loads_anew() adds the other half.
+template <int Dim, class Shape>
+void account_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// After Task 4. The reaction of a plane or a face is the rate at which it changes the momentum of the particles (docs/theory/step.md,
+/// symmetry planes). impose_forces() has booked the part of the nodes on it; this function books the part of the folded pairs. Nodes
+/// computed the work of body force and damping as if none of their mass were that of an image; this function corrects it.
+template <int Dim, class Shape>
+void account_mirrored_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 /// Where particles do more than add accelerations, takes back half of the work of the body force in Task 4. add_body_work() puts half of that on
 /// the velocities of Task 6 in its place.
@@ -195,6 +226,10 @@ void impose_end_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_
 /// Task 6: particles are to move with the nodal velocities at hand, and as far as springs between them give way; not where N03 Eq. 30 is chosen.
 template <int Dim>
 void move_with_velocities(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// After Task 6: half of the work with the velocities that were extrapolated anew. The sum is what particles gain (docs/theory/loads.md).
+template <int Dim, class Shape>
+void account_loads_anew(StepWork<Dim>& work, std::size_t block);
 
 /// After Task 6: half of the work of the body force on the velocities that were extrapolated anew (take_back_body_work).
 template <int Dim>

@@ -1,10 +1,8 @@
-#include "crampon/step/project_forces.hpp"
+#include "crampon/step/force_pass.hpp"
 
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/mirrored_forces.hpp"
-#include "crampon/step/project_loads.hpp"
-#include "crampon/step/stress_pass.hpp"
-#include "crampon/step/tile_buffer.hpp"
+#include "crampon/step/tile_loads.hpp"
 
 namespace crampon {
 
@@ -36,14 +34,7 @@ void project_rigid_motion(const State<Dim>& state, const StepWork<Dim>& work, co
                         });
 }
 
-/// Internal forces of a pack (N03 Eq. 28) into tiles.
-template <int Dim, class Shape>
-auto internal_forces(const Particles<Dim>& particles, NodalVector<Dim>* tiles) {
-  return [&particles, tiles](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
-    scatter_force<Dim, Shape>(stencil, targets, particles.mass_volume[2 * std::size_t{pack} + 1],
-                              &particles.stress[std::size_t{pack} * stress_size<Dim>], tiles);
-  };
-}
+}  // namespace
 
 template <int Dim, class Shape>
 void project_other_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, NodalVector<Dim>* tiles) {
@@ -52,28 +43,8 @@ void project_other_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Di
   project_mirrored_forces<Dim, Shape>(state, work, model, b, tiles);
 }
 
-}  // namespace
-
-template <int Dim, class Shape>
-void update_stress_and_project_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
-  if (!work.blocks.list[b].has_particles()) return;
-  NodalVector<Dim>* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_force);
-  update_stress<Dim, Shape>(state, work, model, b, work.now.stress_dt, gathered<Dim, Shape>(work, b, work.nodes.velocity),
-                            work.nodes.layers[b].offsets.start, internal_forces<Dim, Shape>(state.particles, tiles));
-  project_other_forces<Dim, Shape>(state, work, model, b, tiles);
-}
-
-template <int Dim, class Shape>
-void project_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
-  if (!work.blocks.list[b].has_particles()) return;
-  NodalVector<Dim>* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_force);
-  for_packs<Dim, Shape>(state, work, model, b, internal_forces<Dim, Shape>(state.particles, tiles));
-  project_other_forces<Dim, Shape>(state, work, model, b, tiles);
-}
-
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                    \
-  template void update_stress_and_project_forces<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t); \
-  template void project_forces<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) \
+  template void project_other_forces<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t, NodalVector<DIM>*);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 
