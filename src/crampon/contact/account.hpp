@@ -5,7 +5,7 @@
 
 namespace crampon {
 
-/// Tasks of the step; or a term of a series for velocities after Task 4 (step/filter_velocities.hpp), which only keeps the state of Task 4.
+/// Tasks of the step; or a term of a series for velocities after Task 4 (step/velocity_series.hpp), which only keeps the state of Task 4.
 enum class ContactTask { two, four, six, term };
 
 /// Of what moves as one at a node. Rigid bodies keep such an account too: what they give is work at the boundary.

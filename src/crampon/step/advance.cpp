@@ -6,14 +6,9 @@
 #include "crampon/step/assign_velocity_fields.hpp"
 #include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/crack_tractions.hpp"
-#include "crampon/step/filter_velocities.hpp"
 #include "crampon/step/find_contacts.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/move_cracks.hpp"
-#include "crampon/step/move_particles.hpp"
-#include "crampon/step/project_momentum.hpp"
-#include "crampon/step/take_velocities.hpp"
-#include "crampon/step/update_velocities.hpp"
 #include "crampon/step/verbs.hpp"
 
 namespace crampon {

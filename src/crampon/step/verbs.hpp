@@ -63,6 +63,10 @@ void record_initial_volume(State<Dim>& state, StepWork<Dim>& work, const Model<D
 
 // Task 1: particles to tiles, and which nodes several fields share.
 
+/// Tile sums of m v S and m S per layer (N03 Eq. 26), for one block.
+template <int Dim, class Shape>
+void project_momentum(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
 /// Centre, inertia and spin of every piece, from what project_momentum() has summed up.
 template <int Dim>
 void find_rotations(State<Dim>& state, StepWork<Dim>& work);
@@ -191,19 +195,36 @@ void account_mirrored_forces(State<Dim>& state, StepWork<Dim>& work, const Model
 template <int Dim>
 void take_back_body_work(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
-// Task 5 of XPIC and FMPM: the velocities of nodes by a series.
+// Task 5 of XPIC and FMPM: the velocities of nodes by a series (step/velocity_series.hpp).
+
+/// First term, own nodes of a block: w = v at the start (XPIC) or at the end (FMPM) of the step, as Tasks 2 and 4 left it.
+template <int Dim>
+void start_series(StepWork<Dim>& work, std::size_t block);
 
 /// The angular momentum that particles get by taking a term of the series from a block's nodes.
 template <int Dim>
 void sum_rotation_of_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
+/// Tile sums {m u, m} of a block's particles, u = sum S w, for term 2, 3, ...
+template <int Dim, class Shape>
+void project_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
 /// The spin of particles that take a term of the series from nodes.
 template <int Dim>
 void find_term_spins(State<Dim>& state, StepWork<Dim>& work);
 
+/// Own nodes of a block: the next term w - A w. Faces that Task 4 found in contact part or slide by it no more than the state of their contact
+/// lets them.
+template <int Dim, class Shape>
+void gather_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
 /// Takes all momentum from prescribed components: they have no part in further terms. Own nodes of one block.
 template <int Dim>
 void clear_fixed_momenta(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Adds the term to the velocity that particles read. Prescribed components have none.
+template <int Dim>
+void add_term(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 // Tasks 5 and 6: velocities of particles, and the momenta that are extrapolated from them anew.
 
@@ -214,6 +235,19 @@ void sum_rotation_of_motion(State<Dim>& state, StepWork<Dim>& work, const Model<
 /// How particles answer couples, and the spin that they have after Task 5 by the rule of the step.
 template <int Dim>
 void answer_couples(State<Dim>& state, StepWork<Dim>& work);
+
+/// Task 5, velocities: v += dt sum S a (N03 Eq. 30), and Task 6c: tile sums of the new momenta with the S and
+/// fields of the start of the step (N03 Eq. 31).
+template <int Dim, class Shape>
+void update_velocities_and_project(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// take_velocities(), and Task 6 after that: tile sums of the new momenta (N03 Eq. 31).
+template <int Dim, class Shape>
+void take_velocities_and_project(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Task 5, velocities, where particles do not just add accelerations (step/transfer.hpp). Books what that takes of their energy.
+template <int Dim, class Shape>
+void take_velocities(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 /// Task 6: the re-extrapolated momenta (N03 Eq. 31).
 template <int Dim, class Shape>
@@ -238,6 +272,26 @@ void add_body_work(StepWork<Dim>& work, const Model<Dim>& model, std::size_t blo
 /// Remembers for the next step which components prescribe_by_rigid() has prescribed. Serial.
 template <int Dim>
 void remember_rigid_conditions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+// Task 5, positions: x += dt sum S v with the velocities of Task 6, or of Task 4 where there are no others (N03 Eq. 30). What positions were led
+// on by before the step (lead_positions) is corrected for the velocity that moves them. These verbs also find the box that particles now reach
+// and their health, and what particles remember of contact follows.
+
+/// Positions alone.
+template <int Dim, class Shape>
+void move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Positions after v += dt sum S a (N03 Eq. 30), where velocities are not updated before Task 6.
+template <int Dim, class Shape>
+void accelerate_and_move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// Positions after the stress update of Task 6 with the nodal velocities at hand (N03 Eqs. 34-36), pack by pack.
+template <int Dim, class Shape>
+void update_stress_and_move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+/// All three: the stress update, v += dt sum S a, and positions.
+template <int Dim, class Shape>
+void update_stress_accelerate_and_move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
 // After Task 8: the end of the step.
 

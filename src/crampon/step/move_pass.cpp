@@ -1,4 +1,4 @@
-#include "crampon/step/move_particles.hpp"
+#include "crampon/step/move_pass.hpp"
 
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/interpolate.hpp"
@@ -72,13 +72,8 @@ void remember_contact(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& 
                         });
 }
 
-/// Do particles strain before they move, and do they take accelerations as they do?
-enum class Strain { done, now };
-enum class Accelerate { done, now };
-
 template <int Dim, class Shape>
-void finish_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, Strain strain,
-                      Accelerate accelerate) {
+void move_block(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, Strain strain, Accelerate accelerate) {
   const double dt = work.now.dt, further = work.now.further;
   if (!work.blocks.list[b].has_particles()) return;
   Particles<Dim>& particles = state.particles;
@@ -150,27 +145,13 @@ void finish_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& 
 }  // namespace
 
 template <int Dim, class Shape>
-void move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
-  finish_particles<Dim, Shape>(state, work, model, b, Strain::done, Accelerate::done);
-}
-template <int Dim, class Shape>
-void accelerate_and_move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
-  finish_particles<Dim, Shape>(state, work, model, b, Strain::done, Accelerate::now);
-}
-template <int Dim, class Shape>
-void update_stress_and_move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
-  finish_particles<Dim, Shape>(state, work, model, b, Strain::now, Accelerate::done);
-}
-template <int Dim, class Shape>
-void update_stress_accelerate_and_move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
-  finish_particles<Dim, Shape>(state, work, model, b, Strain::now, Accelerate::now);
+void finish_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, Strain strain,
+                      Accelerate accelerate) {
+  move_block<Dim, Shape>(state, work, model, b, strain, accelerate);
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                    \
-  template void move_particles<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);                   \
-  template void accelerate_and_move_particles<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);    \
-  template void update_stress_and_move_particles<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t); \
-  template void update_stress_accelerate_and_move_particles<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE) \
+  template void finish_particles<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t, Strain, Accelerate);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
 

@@ -1,4 +1,4 @@
-#include "crampon/step/update_velocities.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/interpolate.hpp"

@@ -1,13 +1,11 @@
-#include "crampon/step/take_velocities.hpp"
+#pragma once
+/// The walk over the particles of a block on which they take velocities from nodes (Task 5; step/transfer.hpp).
 
-#include "crampon/step/instantiate.hpp"
 #include "crampon/step/interpolate.hpp"
 #include "crampon/step/rotation.hpp"
 #include "crampon/step/tile_buffer.hpp"
 
 namespace crampon {
-
-namespace {
 
 /// {v', a}: of nodes, at the particle p.
 template <int Dim>
@@ -33,7 +31,8 @@ void take_velocity(Particles<Dim>& particles, std::size_t p, const MotionRecord<
 
 /// `then(pack, stencil, targets)` follows for every pack.
 template <int Dim, class Shape, class Then>
-void for_taken(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b, const VelocityRule& rule, Then&& then) {
+[[gnu::always_inline]] inline void for_taken(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
+                                             const VelocityRule& rule, Then&& then) {
   const MotionRecord<Dim>* motion = gathered<Dim, Shape>(work, b, work.nodes.motion);
   const auto& offsets = work.nodes.layers[b].offsets.motion;
   BlockLedger<Dim>& ledger = work.scratch[b].ledger;
@@ -48,37 +47,5 @@ void for_taken(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, 
                           then(pack, stencil, targets);
                         });
 }
-
-}  // namespace
-
-template <int Dim, class Shape>
-void take_velocities(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
-  const VelocityRule& rule = work.now.rule;
-  if (!work.blocks.list[b].has_particles()) return;
-  for_taken<Dim, Shape>(state, work, model, b, rule, [](std::uint32_t, const Stencil<Dim, Shape>&, const PairTarget*) {});
-}
-
-template <int Dim, class Shape>
-void take_velocities_and_project(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
-  const VelocityRule& rule = work.now.rule;
-  if (!work.blocks.list[b].has_particles()) return;
-  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_momentum);
-  const Pack* offsets = work.nodes.layers[b].offsets.end.data();
-  for_taken<Dim, Shape>(state, work, model, b, rule,
-                        [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {
-                          Pack record[lanes];
-                          for (int l = 0; l < lanes; ++l) {
-                            const std::size_t p = std::size_t{pack} * lanes + static_cast<std::size_t>(l);
-                            record[l] = state.particles.momentum_record(p, state.particles.mass(p));
-                          }
-                          scatter<Dim, Shape>(stencil, targets, offsets, record, tiles);
-                        });
-}
-
-#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                   \
-  template void take_velocities<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t); \
-  template void take_velocities_and_project<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
-CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
-#undef CRAMPON_INSTANTIATE
 
 }  // namespace crampon

@@ -1,7 +1,8 @@
-#include "crampon/step/project_momentum.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/moment_projection.hpp"
+#include "crampon/step/packs.hpp"
 #include "crampon/step/tile_buffer.hpp"
 
 namespace crampon {
