@@ -95,8 +95,8 @@ bool contact_comes_first(const Model<Dim>& model) {
 }  // namespace
 
 /// The time step of N13, Tasks 0 to 8. Read it as the page of a paper: a line has a name, when it runs, what it reads (of its own block; of others),
-/// what it writes, and its verbs, each a function in the file of its name. Several verbs on a line run one after another on a block while it is
-/// in the cache.
+/// what it writes, and its verbs, each a function in the file of its name in step/verbs. Several verbs on a line run one after another on a block
+/// while it is in the cache.
 template <int Dim, class Shape>
 std::vector<Stage<Dim>> stages() {
   using enum Data;

@@ -2,6 +2,7 @@
 /// The verbs of the time step in the order of the table in step/advance.cpp. Each is defined in the file of its name in step/verbs.
 ///
 /// A verb with a block works for the particles or the own nodes of that block, in parallel with other blocks. The others run once for all blocks.
+/// Verbs of contact at nodes and of cracks are declared in the headers that step/advance.cpp includes beside this one.
 
 #include "crampon/step/model.hpp"
 #include "crampon/step/step_work.hpp"
@@ -21,8 +22,8 @@ void reorder(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 template <int Dim>
 void move_rigid_bodies(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
-/// At the start of a run: the pieces of material, and about which axes they may turn. Rigid bodies do not turn by this rule at all. A piece at a
-/// symmetry plane turns about the normal of that plane alone. Whatever is a piece at the start counts as one for good.
+/// At the start of a run: the pieces of material, and about which axes they may turn. Rigid bodies belong to no piece. A piece at a symmetry plane
+/// turns about the normal of that plane alone. Whatever is a piece at the start counts as one for good.
 template <int Dim>
 void start_rotations(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
@@ -179,8 +180,8 @@ void find_accelerations(StepWork<Dim>& work, const Model<Dim>& model, std::size_
 template <int Dim>
 void sum_couples(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
-/// Work of loads over the step to the block's ledger, f_i . (v_i + v'_i)/2 dt. Where velocities are extrapolated anew, f_i . v_i/2 dt, and
-/// account_loads_anew() adds the other half.
+/// Work of loads over the step to the block's ledger, f_i . (v_i + v'_i)/2 dt. Where velocities are extrapolated anew it is
+/// f_i . v_i/2 dt, and account_loads_anew() adds the other half.
 template <int Dim, class Shape>
 void account_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 

@@ -1,9 +1,10 @@
 #include "crampon/step/verbs.hpp"
 
+#include <algorithm>
+
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/packs.hpp"
 #include "crampon/step/tile_buffer.hpp"
-#include "crampon/step/velocity_series.hpp"
 
 namespace crampon {
 
