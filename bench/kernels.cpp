@@ -165,13 +165,15 @@ MaterialSpec material(const std::string& law) {
 /// Particles to the nine nodes around, beside a straight crack.
 void crossing(State& state) {
   const std::vector<Vec<2>> vertices{{{-2, .1}}, {{2, .2}}};
-  const CrackPath crack{vertices, {}, false};
+  const std::vector<Facet<2>> facets = path_facets(vertices.size());
+  const std::vector<FacetNeighbours<2>> neighbours = find_neighbours<2>(facets, vertices.size());
+  const CrackMesh<2> crack{vertices, facets, neighbours};
   std::vector<Vec<2>> nodes;
   for (int n = 0, row = 0; n < 9; ++n, row = n / 3) nodes.push_back({{-1. + n % 3, -1. + row}});
   const FacetRef facet{};
-  Crossing crossings[9];
+  Crossing<2> crossings[9];
   for (auto _ : state) {
-    cross_stencil(crack, {&facet, 1}, {{.3, .4}}, nodes, crossings);
+    cross_stencil<2>(crack, {&facet, 1}, {{.3, .4}}, nodes, crossings);
     DoNotOptimize(crossings);
   }
   state.SetItemsProcessed(state.iterations() * 9);

@@ -17,22 +17,20 @@ using Points = std::vector<Vec<2>>;
 inline int pick(Rng& rng, int low, int high) { return std::uniform_int_distribution<int>(low, high)(rng); }
 inline double draw(Rng& rng, double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); }
 
-inline std::vector<Vec<2>> unit_normals(const Points& v) {
-  std::vector<Vec<2>> n;
-  for (std::size_t s = 0; s + 1 < v.size(); ++s) {
-    const Vec<2> d = v[s + 1] - v[s];
-    n.push_back(normalized(Vec<2>{d[1], -d[0]}));
-  }
-  return n;
-}
-
-/// A polyline that owns its points.
+/// A polyline that owns its points, as the mesh of a crack.
 struct Polyline {
   Points vertices;
+  std::vector<Facet<2>> facets;
+  std::vector<FacetNeighbours<2>> neighbours;
   std::vector<Vec<2>> normals;
   bool closed;
-  Polyline(Points v, bool closed_ = false) : vertices(std::move(v)), normals(unit_normals(vertices)), closed(closed_) {}
-  CrackPath path() const { return {vertices, normals, closed}; }
+  Polyline(Points v, bool closed_ = false)
+      : vertices(std::move(v)),
+        facets(path_facets(vertices.size())),
+        neighbours(find_neighbours<2>(facets, vertices.size(), closed_)),
+        normals(facet_normals<2>(vertices, facets)),
+        closed(closed_) {}
+  CrackMesh<2> mesh() const { return {vertices, facets, neighbours, normals}; }
 };
 
 }  // namespace crampon::testing

@@ -212,7 +212,7 @@ TEST(Crossing, AgreesWithExactRationals) {
         ++skipped;
         continue;
       }
-      const Crossing got = cross_path(crack.path(), p, n);
+      const Crossing got = cross_crack(crack.mesh(), p, n);
       const auto at_vertex = std::find(crack.vertices.begin(), crack.vertices.end(), p) != crack.vertices.end();
       ASSERT_EQ(got.crosses(), expected.crosses()) << "case " << k;
       ASSERT_EQ(got.above, expected.above) << "case " << k;
@@ -221,8 +221,9 @@ TEST(Crossing, AgreesWithExactRationals) {
         Vec<2> normal_sum;
         for (std::size_t s = 0; s < expected.crossed.size(); ++s) {
           if (expected.crossed[s]) normal_sum += crossed_normal(crack, s, p, n);
-          const TipRule tips = crack.path().tip_rule(s);
-          ASSERT_EQ(segment_crossed(p, n, crack.vertices[s], crack.vertices[s + 1], tips), expected.crossed[s] == 1);
+          const FacetRef one{0, static_cast<FacetId>(s)};
+          const Crossing of_one = cross_crack(crack.mesh(), {&one, 1}, p, n);
+          ASSERT_EQ(of_one.above + of_one.below, expected.crossed[s]);
         }
         ASSERT_EQ(got.normal_sum, normal_sum);
       }
@@ -264,7 +265,7 @@ TEST(Crossing, OfAClosedCrackTellsInsideFromOutside) {
     const Vec<2> p = point(rng, k % 4 < 2 ? Kind::random : Kind::lattice), n = point(rng, Kind::lattice);
     if (on_crack(crack, p)) continue;
     const bool expected = inside(crack, to_exact(p)) != inside(crack, displaced(n));
-    ASSERT_EQ(cross_path(crack.path(), p, n).crosses(), expected);
+    ASSERT_EQ(cross_crack(crack.mesh(), p, n).crosses(), expected);
     ++compared;
     parted += expected;
   }
@@ -283,13 +284,13 @@ TEST(Crossing, StencilGivesWhatPairsGive) {
     const Vec<2> p = point(rng, kind);
     Points nodes;
     for (int i = 0; i < 9; ++i) nodes.push_back(point(rng, Kind::lattice));
-    std::vector<Crossing> got(nodes.size());
-    CrackPath path = crack.path();
+    std::vector<Crossing<2>> got(nodes.size());
+    CrackMesh mesh = crack.mesh();
     const std::vector<Vec<2>> original(facets.size(), Vec<2>{0, -1});  // a crack that was straight at the start
-    path.original_normals = original;
-    cross_stencil(path, facets, p, nodes, got);
+    mesh.original_normals = original;
+    cross_stencil<2>(mesh, facets, p, nodes, got);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Crossing one = cross_path(path, facets, p, nodes[i]);
+      const Crossing one = cross_crack(mesh, facets, p, nodes[i]);
       ASSERT_EQ(got[i].above, one.above);
       ASSERT_EQ(got[i].below, one.below);
       ASSERT_EQ(got[i].normal_sum, one.normal_sum);
@@ -309,7 +310,7 @@ TEST(Crossing, ReversedCrackSwapsAboveAndBelow) {
     const Polyline crack = polyline(rng, kind, k % 5 == 0), back = reversed(crack);
     const Vec<2> p = point(rng, kind), n = point(rng, kind);
     if (on_crack(crack, p)) continue;  // counts as above in either direction
-    const Crossing one = cross_path(crack.path(), p, n), two = cross_path(back.path(), p, n);
+    const Crossing one = cross_crack(crack.mesh(), p, n), two = cross_crack(back.mesh(), p, n);
     ASSERT_EQ(one.above, two.below);
     ASSERT_EQ(one.below, two.above);
     ASSERT_EQ(one.side(), -two.side());
@@ -333,7 +334,7 @@ TEST(Crossing, MirrorImageIsClassifiedAlike) {
     if (!on_crack(crack, n)) {
       const Vec<2> p = point(rng, kind);
       if (on_crack(crack, p)) continue;
-      const Crossing one = cross_path(crack.path(), p, n), two = cross_path(image.path(), mirrored(p), mirrored(n));
+      const Crossing one = cross_crack(crack.mesh(), p, n), two = cross_crack(image.mesh(), mirrored(p), mirrored(n));
       if (along_tip_segment(crack, p, n)) continue;
       tip_ties += in_line_with_tip(crack, p, n);
       ASSERT_EQ(one.crosses(), two.crosses());
@@ -348,8 +349,8 @@ TEST(Crossing, MirrorImageIsClassifiedAlike) {
     for (int i = 0; i < 8; ++i) {
       const Vec<2> p = point(rng, Kind::lattice);
       if (on_crack(crack, p) || in_line_with_tip(crack, p, n)) continue;
-      const bool one = cross_path(crack.path(), p, n).crosses();
-      const bool two = cross_path(image.path(), mirrored(p), mirrored(n)).crosses();
+      const bool one = cross_crack(crack.mesh(), p, n).crosses();
+      const bool two = cross_crack(image.mesh(), mirrored(p), mirrored(n)).crosses();
       ++(one == two ? same : other);
     }
     // Away from points where the crack meets itself: there more than two sides meet.
@@ -387,7 +388,7 @@ TEST(Crossing, ParticlesAroundANodeOnTheCrackAgreeOnItsSide) {
       // Above: in the corner to the left of u -> o -> w.
       const bool left_u = orient_sign(u, o, p) > 0, left_w = orient_sign(o, w, p) > 0;
       const bool is_above = turn >= 0 ? left_u && left_w : left_u || left_w;
-      const Crossing c = cross_path(crack.path(), p, o);
+      const Crossing c = cross_crack(crack.mesh(), p, o);
       ++(is_above ? above : below);
       (is_above ? crossed_above : crossed_below) += c.crosses();
       if (c.crosses()) {
@@ -416,7 +417,7 @@ TEST(Crossing, CrackAlongAGridLineSplitsEveryNodeButItsTips) {
     int crossed = 0;
     for (const double dx : {-0.75, -0.25, 0.25, 0.75}) {
       for (const double dy : {-0.75, -0.25, 0.25, 0.75}) {
-        const Crossing c = cross_path(crack.path(), node + Vec<2>{dx, dy}, node);
+        const Crossing c = cross_crack(crack.mesh(), node + Vec<2>{dx, dy}, node);
         crossed += c.crosses();
         if (c.crosses()) {
           EXPECT_EQ(c.side(), -1);
@@ -431,8 +432,8 @@ TEST(Crossing, CrackAlongAGridLineSplitsEveryNodeButItsTips) {
 TEST(Crossing, ParticleOnTheCrackCountsAsAbove) {
   const Polyline crack({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
   for (const double x : {0.5, 1., 1.25, 2., 2.5}) {
-    EXPECT_FALSE(cross_path(crack.path(), {x, 0}, {1.5, 1}).crosses());
-    const Crossing c = cross_path(crack.path(), {x, 0}, {1.5, -1});
+    EXPECT_FALSE(cross_crack(crack.mesh(), {x, 0}, {1.5, 1}).crosses());
+    const Crossing c = cross_crack(crack.mesh(), {x, 0}, {1.5, -1});
     EXPECT_TRUE(c.crosses());
     EXPECT_EQ(c.side(), 1);
   }
@@ -442,9 +443,9 @@ TEST(Crossing, ParticleOnACornerSeesTheWholeSideBelow) {
   const Polyline square({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}, true);  // above is inside
   for (const Vec<2>& corner : square.vertices) {
     for (const Vec<2>& node : Points{{2, 0.5}, {2, -1}, {0.5, -1}, {-1, 0.5}, {-1, 2}, {0.5, 2}}) {
-      EXPECT_TRUE(cross_path(square.path(), corner, node).crosses());
+      EXPECT_TRUE(cross_crack(square.mesh(), corner, node).crosses());
     }
-    EXPECT_FALSE(cross_path(square.path(), corner, {0.5, 0.25}).crosses());
+    EXPECT_FALSE(cross_crack(square.mesh(), corner, {0.5, 0.25}).crosses());
   }
 }
 

@@ -1,8 +1,11 @@
-// Binned crack segments against all of them (docs/theory/crossing.md, which segments are tested).
+// Binned facets of cracks against all of them (docs/theory/crossing.md, which facets are tested).
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "crampon/core/predicates.hpp"
@@ -31,7 +34,7 @@ TEST(FacetBins, ListExactlyTheSegmentsACellCanSee) {
   Rng rng(9);
   long listed = 0, crossings = 0;
   for (int k = 0; k < 150; ++k) {
-    BinGrid grid;
+    BinGrid<2> grid;
     grid.origin = {draw(rng, -1, 1), draw(rng, -1, 1)};
     grid.cell = k % 3 ? Vec<2>{0.5, 0.25} : Vec<2>{0.1, 0.3};
     grid.cells = {pick(rng, 1, 12), pick(rng, 1, 12)};
@@ -50,14 +53,13 @@ TEST(FacetBins, ListExactlyTheSegmentsACellCanSee) {
       }
       cracks.emplace_back(v);
     }
-    std::vector<CrackPath> paths;
-    for (const Polyline& c : cracks) paths.push_back(c.path());
-    FacetBins bins;
-    bins.build(grid, paths);
-    for (int j = -FacetBins::padding; j < grid.cells[1] + FacetBins::padding; ++j) {
-      for (int i = -FacetBins::padding; i < grid.cells[0] + FacetBins::padding; ++i) {
-        const std::span<const FacetRef> got = bins.facets_of_cell(i, j);
-        ASSERT_EQ(bins.facets_of_cell(bins.cell_key(i, j)).data(), got.data());
+    std::vector<CrackMesh<2>> meshes;
+    for (const Polyline& c : cracks) meshes.push_back(c.mesh());
+    FacetBins<2> bins;
+    bins.build(grid, meshes);
+    for (int j = -FacetBins<2>::padding; j < grid.cells[1] + FacetBins<2>::padding; ++j) {
+      for (int i = -FacetBins<2>::padding; i < grid.cells[0] + FacetBins<2>::padding; ++i) {
+        const std::span<const FacetRef> got = bins.facets_of_cell({i, j});
         ASSERT_TRUE(std::is_sorted(got.begin(), got.end()));
         ASSERT_EQ(bins.any_in_box({i, j}, {i, j}), !got.empty());
         // The box exactly and with twice the margin: in between the bins may do as they like.
@@ -86,7 +88,7 @@ TEST(FacetBins, ListExactlyTheSegmentsACellCanSee) {
           for (std::uint32_t c = 0; c < cracks.size(); ++c) {
             const auto first = std::lower_bound(got.begin(), got.end(), FacetRef{c, 0});
             const auto last = std::lower_bound(got.begin(), got.end(), FacetRef{c + 1, 0});
-            const Crossing some = cross_path(paths[c], {first, last}, p, node), all = cross_path(paths[c], p, node);
+            const Crossing some = cross_crack(meshes[c], {first, last}, p, node), all = cross_crack(meshes[c], p, node);
             ASSERT_EQ(some.above, all.above);
             ASSERT_EQ(some.below, all.below);
             ASSERT_EQ(some.normal_sum, all.normal_sum);
@@ -99,14 +101,14 @@ TEST(FacetBins, ListExactlyTheSegmentsACellCanSee) {
       const std::array<int, 2> low{pick(rng, -20, 20), pick(rng, -20, 20)}, high{low[0] + pick(rng, 0, 8), low[1] + pick(rng, 0, 8)};
       bool any = false;
       for (int j = low[1]; j <= high[1]; ++j) {
-        for (int i = low[0]; i <= high[0]; ++i) any |= !bins.facets_of_cell(i, j).empty();
+        for (int i = low[0]; i <= high[0]; ++i) any |= !bins.facets_of_cell({i, j}).empty();
       }
       ASSERT_EQ(bins.any_in_box(low, high), any);
     }
-    BinGrid bare = grid;
+    BinGrid<2> bare = grid;
     bare.reach_low = bare.reach_high = 0;
-    FacetBins cells;  // list what meets the cell itself
-    cells.build(bare, paths);
+    FacetBins<2> cells;  // list what meets the cell itself
+    cells.build(bare, meshes);
     std::vector<FacetRef> room;
     for (int box = 0; box < 50; ++box) {
       const std::array<int, 2> low{pick(rng, -10, 10), pick(rng, -10, 10)}, high{low[0] + pick(rng, 0, 6), low[1] + pick(rng, 0, 6)};
@@ -114,7 +116,7 @@ TEST(FacetBins, ListExactlyTheSegmentsACellCanSee) {
       ASSERT_TRUE(std::is_sorted(got.begin(), got.end(), std::less_equal<>())) << "ascending, none twice";
       for (int j = low[1]; j <= high[1]; ++j) {
         for (int i = low[0]; i <= high[0]; ++i) {
-          for (const FacetRef& f : cells.facets_of_cell(i, j)) ASSERT_TRUE(std::binary_search(got.begin(), got.end(), f));
+          for (const FacetRef& f : cells.facets_of_cell({i, j})) ASSERT_TRUE(std::binary_search(got.begin(), got.end(), f));
         }
       }
     }
@@ -124,22 +126,149 @@ TEST(FacetBins, ListExactlyTheSegmentsACellCanSee) {
 }
 
 TEST(FacetBins, AreEmptyWithoutCracksAndRebuildFromScratch) {
-  FacetBins bins;
+  FacetBins<2> bins;
   EXPECT_TRUE(bins.empty());
-  EXPECT_TRUE(bins.facets_of_cell(0, 0).empty());
-  EXPECT_TRUE(bins.facets_of_cell(std::int64_t{5}).empty());
+  EXPECT_TRUE(bins.facets_of_cell({0, 0}).empty());
   EXPECT_FALSE(bins.any_in_box({-5, -5}, {5, 5}));
   const Polyline crack({{0.5, 0.5}, {2.5, 0.5}}), elsewhere({{7.5, 7.5}, {8.5, 7.5}});
-  const BinGrid grid{{0, 0}, {1, 1}, {10, 10}, 0, 0};
-  const CrackPath one[] = {crack.path()}, two[] = {elsewhere.path()};
+  const BinGrid<2> grid{{0, 0}, {1, 1}, {10, 10}, 0, 0};
+  const CrackMesh<2> one[] = {crack.mesh()}, two[] = {elsewhere.mesh()};
   bins.build(grid, one);
-  EXPECT_EQ(bins.facets_of_cell(1, 0).size(), 1u);
+  EXPECT_EQ(bins.facets_of_cell({1, 0}).size(), 1u);
   bins.build(grid, two);
-  EXPECT_TRUE(bins.facets_of_cell(1, 0).empty());
-  EXPECT_EQ(bins.facets_of_cell(8, 7).size(), 1u);
+  EXPECT_TRUE(bins.facets_of_cell({1, 0}).empty());
+  EXPECT_EQ(bins.facets_of_cell({8, 7}).size(), 1u);
   bins.build(grid, {});
   EXPECT_TRUE(bins.empty());
   EXPECT_FALSE(bins.any_in_box({-16, -16}, {26, 26}));
+}
+
+/// Triangles that have nothing to do with each other: bins ask no more of a crack.
+struct Triangles {
+  std::vector<Vec<3>> vertices;
+  std::vector<Facet<3>> facets;
+  CrackMesh<3> mesh() const { return {vertices, facets, {}}; }
+};
+
+TEST(FacetBins, ListTrianglesInEveryCellThatCanSeeThem) {
+  Rng rng(10);
+  long points = 0, listed = 0;
+  for (int k = 0; k < 60; ++k) {
+    BinGrid<3> grid;
+    for (std::size_t d = 0; d < 3; ++d) {
+      grid.origin[d] = draw(rng, -1, 1);
+      grid.cell[d] = draw(rng, 0.1, 0.5);
+      grid.cells[d] = pick(rng, 1, 7);
+    }
+    grid.reach_low = pick(rng, 0, 2);
+    grid.reach_high = pick(rng, 0, 2);
+    const auto in_cells = [&](const Vec<3>& x) {
+      Vec<3> g;
+      for (std::size_t d = 0; d < 3; ++d) g[d] = (x[d] - grid.origin[d]) / grid.cell[d];
+      return g;
+    };
+    // Some have vertices on nodes, some reach out of the cells that are kept.
+    std::vector<Triangles> cracks(static_cast<std::size_t>(pick(rng, 1, 3)));
+    for (Triangles& crack : cracks) {
+      for (int f = pick(rng, 1, 6); f > 0; --f) {
+        Vec<3> corner;
+        for (std::size_t d = 0; d < 3; ++d) corner[d] = k % 3 ? draw(rng, -2, 9) : pick(rng, -2, 9);
+        const double size = k % 10 == 0 ? 40 : 2;
+        for (int v = 0; v < 3; ++v) {
+          Vec<3> g = corner;
+          for (std::size_t d = 0; d < 3; ++d) g[d] += k % 3 ? draw(rng, -size, size) : pick(rng, -2, 2);
+          for (std::size_t d = 0; d < 3; ++d) g[d] = grid.origin[d] + g[d] * grid.cell[d];
+          crack.vertices.push_back(g);
+        }
+        const auto first = static_cast<VertexId>(crack.vertices.size() - 3);
+        crack.facets.push_back({first, first + 1, first + 2});
+      }
+    }
+    std::vector<CrackMesh<3>> meshes;
+    for (const Triangles& crack : cracks) meshes.push_back(crack.mesh());
+    FacetBins<3> bins;
+    bins.build(grid, meshes);
+
+    const double lo = grid.reach_low, hi = 1 + grid.reach_high;
+    const auto kept = [&](std::size_t d, double i) { return std::clamp<int>(static_cast<int>(i), -16, grid.cells[d] + 15); };
+    std::array<int, 3> cell{};
+    for (std::uint32_t c = 0; c < cracks.size(); ++c) {
+      for (std::uint32_t f = 0; f < cracks[c].facets.size(); ++f) {
+        std::array<Vec<3>, 3> corners;
+        for (std::size_t v = 0; v < 3; ++v) corners[v] = in_cells(cracks[c].vertices[cracks[c].facets[f][v]]);
+        for (int sample = 0; sample < 40; ++sample) {
+          const double s = draw(rng, 0, 1), t = draw(rng, 0, 1 - s);
+          const Vec<3> g = corners[0] * (1 - s - t) + corners[1] * s + corners[2] * t;
+          // Cells whose boxes hold this point of the triangle, safe from rounding.
+          std::array<int, 3> low{}, high{};
+          for (std::size_t d = 0; d < 3; ++d) {
+            low[d] = kept(d, std::ceil(std::clamp(g[d] - hi + 1e-12, -100., 100.)));
+            high[d] = kept(d, std::floor(std::clamp(g[d] + lo - 1e-12, -100., 100.)));
+            if (g[d] < low[d] - lo || g[d] > high[d] + hi) high[d] = low[d] - 1;  // beyond the padding
+          }
+          for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2]) {
+            for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1]) {
+              for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0]) {
+                const std::span<const FacetRef> got = bins.facets_of_cell(cell);
+                ASSERT_TRUE(std::binary_search(got.begin(), got.end(), FacetRef{c, f}));
+                ++points;
+              }
+            }
+          }
+        }
+      }
+    }
+    for (cell[2] = -18; cell[2] < grid.cells[2] + 18; ++cell[2]) {
+      for (cell[1] = -18; cell[1] < grid.cells[1] + 18; ++cell[1]) {
+        for (cell[0] = -18; cell[0] < grid.cells[0] + 18; ++cell[0]) {
+          const std::span<const FacetRef> got = bins.facets_of_cell(cell);
+          if (got.empty()) continue;
+          ASSERT_TRUE(std::is_sorted(got.begin(), got.end(), std::less_equal<>())) << "ascending, none twice";
+          ASSERT_TRUE(bins.any_in_box(cell, cell));
+          for (std::size_t d = 0; d < 3; ++d) ASSERT_TRUE(cell[d] >= -16 && cell[d] < grid.cells[d] + 16);
+          // None is listed from afar: its own box comes as near as the cell's.
+          for (const FacetRef& at : got) {
+            for (std::size_t d = 0; d < 3; ++d) {
+              double least = std::numeric_limits<double>::infinity(), most = -least;
+              for (const VertexId v : cracks[at.crack].facets[at.facet]) {
+                const double g = in_cells(cracks[at.crack].vertices[v])[d];
+                least = std::min(least, g), most = std::max(most, g);
+              }
+              ASSERT_LE(least, cell[d] + hi + 2e-9);
+              ASSERT_GE(most, cell[d] - lo - 2e-9);
+            }
+          }
+          listed += static_cast<long>(got.size());
+        }
+      }
+    }
+    BinGrid<3> bare = grid;
+    bare.reach_low = bare.reach_high = 0;
+    FacetBins<3> cells;  // list what meets the cell itself
+    cells.build(bare, meshes);
+    std::vector<FacetRef> room;
+    for (int box = 0; box < 30; ++box) {
+      std::array<int, 3> low{}, high{};
+      for (std::size_t d = 0; d < 3; ++d) low[d] = pick(rng, -10, 12), high[d] = low[d] + pick(rng, 0, 5);
+      const std::vector<FacetRef> got = [&] {
+        const std::span<const FacetRef> found = bins.facets_of_box(low, high, room);
+        return std::vector<FacetRef>(found.begin(), found.end());
+      }();
+      ASSERT_TRUE(std::is_sorted(got.begin(), got.end(), std::less_equal<>()));
+      bool any = false;
+      for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2]) {
+        for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1]) {
+          for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0]) {
+            any |= !bins.facets_of_cell(cell).empty();
+            for (const FacetRef& f : cells.facets_of_cell(cell)) ASSERT_TRUE(std::binary_search(got.begin(), got.end(), f));
+          }
+        }
+      }
+      ASSERT_EQ(bins.any_in_box(low, high), any);
+    }
+  }
+  EXPECT_GT(points, 100000);
+  EXPECT_GT(listed, 20000);
 }
 
 }  // namespace

@@ -87,13 +87,13 @@ TEST_P(Points, SeeTheFieldOnTheirSideOfACrack) {
           const Vec<2> on{{x, s.y + s.slope * x}};
           for (const bool is_above : {true, false}) {
             const Vec<2> from = fields.beside(on, is_above ? up : -up);
-            const PointNodes seen = fields.at(from, 0);
+            const PointNodes<2> seen = fields.at(from, 0);
             double sum = 0;
             Vec<2> slopes, place;
-            for (const PointNode& n : seen) sum += n.S, slopes += n.G, place += n.x * n.S;
+            for (const PointNode<2>& n : seen) sum += n.S, slopes += n.G, place += n.x * n.S;
             // All particles of the field move alike: nodes do, and so does the point. Momenta are sums of some ten particles.
             ASSERT_GT(sum, 0.1) << Shape::name << " at " << x << (is_above ? " above" : " below");
-            ASSERT_LT(norm(velocity_at(s.built.work, seen) * (1 / sum) - (is_above ? above : below)), 1e-11)
+            ASSERT_LT(norm(velocity_at<2>(s.built.work, seen) * (1 / sum) - (is_above ? above : below)), 1e-11)
                 << Shape::name << " at " << x << (is_above ? " above" : " below");
             if (sum < 1 - 1e-9) continue;  // the outermost row of particles does not reach a node across
             ++whole;
@@ -101,10 +101,10 @@ TEST_P(Points, SeeTheFieldOnTheirSideOfACrack) {
             // Slopes of functions that add up to one, on cells of 1 cm: round-off of 1/cell.
             ASSERT_LT(norm(slopes), 1e-9);
             ASSERT_LT(norm(place - from), 1e-12) << "linear functions are exact";
-            for (const Vec<2>& row : velocity_gradient_at(s.built.work, seen)) ASSERT_LT(norm(row), 1e-8);
+            for (const Vec<2>& row : velocity_gradient_at<2>(s.built.work, seen)) ASSERT_LT(norm(row), 1e-8);
             // The nodes across the crack are among them, with the field of this side.
             bool any_across = false;
-            for (const PointNode& n : seen) any_across = any_across || (n.x[1] > s.y + s.slope * n.x[0]) != is_above;
+            for (const PointNode<2>& n : seen) any_across = any_across || (n.x[1] > s.y + s.slope * n.x[0]) != is_above;
             EXPECT_TRUE(any_across);
           }
         }
@@ -112,10 +112,10 @@ TEST_P(Points, SeeTheFieldOnTheirSideOfACrack) {
         const Vec<2> ahead{{s.tip + 0.065, s.y + s.slope * (s.tip + 0.065)}};
         for (const Vec<2>& out : {up, -up}) {
           double sum = 0;
-          const PointNodes seen = fields.at(fields.beside(ahead, out), 0);
-          for (const PointNode& n : seen) sum += n.S;
+          const PointNodes<2> seen = fields.at(fields.beside(ahead, out), 0);
+          for (const PointNode<2>& n : seen) sum += n.S;
           EXPECT_NEAR(sum, 1, 1e-12);
-          EXPECT_LT(norm(velocity_at(s.built.work, seen)), 1e-12);
+          EXPECT_LT(norm(velocity_at<2>(s.built.work, seen)), 1e-12);
         }
       }
     }
@@ -128,8 +128,8 @@ TEST_P(Points, SeeLessOfABodyAtItsEdge) {
   const PointFields fields(s.built.work, s.built.model);
   EXPECT_TRUE(fields.at({{0.35, 0.35}}, 0).empty()) << "far from all bodies";
   double inside = 0, outside = 0;
-  for (const PointNode& n : fields.at({{0.28, 0.25}}, 0)) inside += n.S;
-  for (const PointNode& n : fields.at({{0.306, 0.25}}, 0)) outside += n.S;
+  for (const PointNode<2>& n : fields.at({{0.28, 0.25}}, 0)) inside += n.S;
+  for (const PointNode<2>& n : fields.at({{0.306, 0.25}}, 0)) outside += n.S;
   EXPECT_NEAR(inside, 1, 1e-12);
   EXPECT_GT(outside, 0.1);  // the row of nodes on the edge
   EXPECT_LT(outside, 0.9);

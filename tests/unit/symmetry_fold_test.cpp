@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "crampon/core/predicates.hpp"
 #include "crampon/crack/crossing.hpp"
 #include "crampon/crack/symmetry_fold.hpp"
 #include "crossing_cases.hpp"
@@ -70,7 +71,7 @@ TEST(SymmetryFold, PairsFoldWhereTheTwinsCrackIsNotCrossed) {
     if (side * (particle[static_cast<std::size_t>(axis)] - at) < 0) continue;
     bool crossed = false;
     for (const Polyline& c : cracks) {
-      crossed |= cross_path(c.path(), particle, node).crosses();
+      crossed |= cross_crack(c.mesh(), particle, node).crosses();
       ties += orient_sign(particle, node, c.vertices.front()) == 0 || orient_sign(particle, node, c.vertices.back()) == 0;
     }
     ASSERT_EQ(folds(plane, particle, node), !crossed) << "case " << k;
@@ -104,7 +105,7 @@ TEST(SymmetryFold, NodesOnThePlaneAreThoseTheCrackLeavesWhole) {
     const Vec<2> node{double(i), 1};
     int crossed = 0;
     for (const double dx : {-0.75, -0.25, 0.25, 0.75}) {
-      for (const double dy : {-0.5, 0.5}) crossed += cross_path(crack.path(), node + Vec<2>{dx, dy}, node).crosses();
+      for (const double dy : {-0.5, 0.5}) crossed += cross_crack(crack.mesh(), node + Vec<2>{dx, dy}, node).crosses();
     }
     EXPECT_EQ(on_plane(plane, node), crossed == 0) << "node " << i;
     EXPECT_FALSE(on_plane(plane, node + Vec<2>{0, 1}));

@@ -14,46 +14,89 @@ constexpr double margin = 1e-9;
 /// A cell number from a coordinate that may lie far outside the grid.
 int clamp_to_int(double x, int low, int high) { return x <= low ? low : x >= high ? high : static_cast<int>(x); }
 
+/// Cells along one axis that see something of a facet.
+struct CellRange {
+  int first, last;
+
+  /// The facet lies between `low` and `high`, in cells, and is seen by a cell that meets this range widened by `down` and `up`.
+  CellRange(double low, double high, double down, double up, int padding, int last_cell)
+      : first(clamp_to_int(std::ceil(low - down), -padding, last_cell + 1)),
+        last(clamp_to_int(std::floor(high + up), -padding - 1, last_cell)) {}
+};
+
+/// The vertices of a facet in cells from the grid's origin; false when one of them is not finite.
+template <int Dim>
+bool corners_in_cells(const CrackMesh<Dim>& crack, const Facet<Dim>& facet, const BinGrid<Dim>& grid, const Vec<Dim>& per_cell,
+                      std::array<Vec<Dim>, Dim>& corners) {
+  Vec<Dim> sum{};
+  for (std::size_t v = 0; v < Dim; ++v) {
+    corners[v] = crack.vertices[facet[v]] - grid.origin;
+    for (int k = 0; k < Dim; ++k) corners[v][k] *= per_cell[k];
+    sum += corners[v];
+  }
+  for (int k = 0; k < Dim; ++k) {
+    if (!std::isfinite(sum[k])) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
-void FacetBins::collect_runs(const BinGrid& grid, std::span<const CrackPath> cracks) {
+template <int Dim>
+void FacetBins<Dim>::collect_runs(const BinGrid<Dim>& grid, std::span<const CrackMesh<Dim>> cracks) {
   runs_.clear();
-  // The segment meets the box of cell (i, j) when cell (i, j) meets the segment's points widened by these.
+  // The facet meets the box of a cell when the cell meets the facet's points widened by these.
   const double down = 1 + grid.reach_high + margin, up = grid.reach_low + margin;
-  const int last_cell[2] = {grid.cells[0] + padding - 1, grid.cells[1] + padding - 1};
-  const Vec<2> per_cell{1 / grid.cell[0], 1 / grid.cell[1]};
-  for (std::size_t c = 0; c < cracks.size(); ++c) {
-    for (std::size_t s = 0; s < cracks[c].segment_count(); ++s) {
-      Vec<2> a = cracks[c].vertices[s] - grid.origin, b = cracks[c].vertices[s + 1] - grid.origin;
-      for (int k = 0; k < 2; ++k) {
-        a[k] *= per_cell[k];
-        b[k] *= per_cell[k];
-      }
-      if (!std::isfinite(a[0] + b[0]) || !std::isfinite(a[1] + b[1])) continue;
-      if (a[1] > b[1]) std::swap(a, b);
-      const double rise = b[1] - a[1], run = b[0] - a[0];
-      const int row_first = clamp_to_int(std::ceil(a[1] - down), -padding, last_cell[1] + 1);
-      const int row_last = clamp_to_int(std::floor(b[1] + up), -padding - 1, last_cell[1]);
-      for (int j = row_first; j <= row_last; ++j) {
-        // The part of the segment between the lowest and the highest line that cell row j can see.
-        const double low = j - up, high = j + down;
-        const double x_low = a[1] >= low ? a[0] : a[0] + run * std::fmin((low - a[1]) / rise, 1.);
-        const double x_high = b[1] <= high ? b[0] : a[0] + run * std::fmin((high - a[1]) / rise, 1.);
-        const int first = clamp_to_int(std::ceil(std::fmin(x_low, x_high) - down), -padding, last_cell[0] + 1);
-        const int last = clamp_to_int(std::floor(std::fmax(x_low, x_high) + up), -padding - 1, last_cell[0]);
-        if (first > last) continue;
-        runs_.push_back({j + padding, first, last, {static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(s)}});
+  Vec<Dim> per_cell;
+  for (int k = 0; k < Dim; ++k) per_cell[k] = 1 / grid.cell[k];
+  const auto range = [&](int axis, double low, double high) {
+    return CellRange(low, high, down, up, padding, grid.cells[axis] + padding - 1);
+  };
+  std::array<Vec<Dim>, Dim> corners;
+  for (std::uint32_t c = 0; c < cracks.size(); ++c) {
+    for (FacetId f = 0; f < cracks[c].facets.size(); ++f) {
+      if (!corners_in_cells<Dim>(cracks[c], cracks[c].facets[f], grid, per_cell, corners)) continue;
+      const auto add_run = [&](int row, const CellRange& cells) {
+        if (cells.first <= cells.last) runs_.push_back({row, cells.first, cells.last, {c, f}});
+      };
+      if constexpr (Dim == 2) {
+        Vec<2>&a = corners[0], &b = corners[1];
+        if (a[1] > b[1]) std::swap(a, b);
+        const double rise = b[1] - a[1], run = b[0] - a[0];
+        const CellRange rows = range(1, a[1], b[1]);
+        for (int j = rows.first; j <= rows.last; ++j) {
+          // The part of the segment between the lowest and the highest line that cell row j can see.
+          const double low = j - up, high = j + down;
+          const double x_low = a[1] >= low ? a[0] : a[0] + run * std::fmin((low - a[1]) / rise, 1.);
+          const double x_high = b[1] <= high ? b[0] : a[0] + run * std::fmin((high - a[1]) / rise, 1.);
+          add_run(j + padding, range(0, std::fmin(x_low, x_high), std::fmax(x_low, x_high)));
+        }
+      } else {
+        // Triangles are no longer than a cell or two, so that the box about one is seen by few cells that do not see the triangle itself.
+        Vec<3> low = corners[0], high = corners[0];
+        for (const Vec<3>& x : corners) {
+          for (int k = 0; k < 3; ++k) low[k] = std::fmin(low[k], x[k]), high[k] = std::fmax(high[k], x[k]);
+        }
+        const CellRange along = range(0, low[0], high[0]), rows = range(1, low[1], high[1]), layers = range(2, low[2], high[2]);
+        for (int k = layers.first; k <= layers.last; ++k) {
+          for (int j = rows.first; j <= rows.last; ++j) add_run((k + padding) * rows_along_[1] + j + padding, along);
+        }
       }
     }
   }
 }
 
-void FacetBins::build(const BinGrid& grid, std::span<const CrackPath> cracks) {
-  width_ = std::int64_t{grid.cells[0]} + 2 * padding;
+template <int Dim>
+void FacetBins<Dim>::build(const BinGrid<Dim>& grid, std::span<const CrackMesh<Dim>> cracks) {
   reach_low_ = grid.reach_low;
   reach_high_ = grid.reach_high;
+  std::size_t rows = 1;
+  for (int k = 1; k < Dim; ++k) {
+    rows_along_[k] = grid.cells[k] + 2 * padding;
+    rows *= static_cast<std::size_t>(rows_along_[k]);
+  }
   collect_runs(grid, cracks);
-  rows_.assign(static_cast<std::size_t>(grid.cells[1] + 2 * padding), Row{});
+  rows_.assign(rows, Row{});
   for (const Run& run : runs_) {
     Row& row = rows_[static_cast<std::size_t>(run.row)];
     if (row.first > row.last) {
@@ -69,7 +112,7 @@ void FacetBins::build(const BinGrid& grid, std::span<const CrackPath> cracks) {
     row.begin = lists;
     if (row.first <= row.last) lists += static_cast<std::size_t>(row.last - row.first) + 1;
   }
-  // A counting sort by list, stable, so each list keeps the order of the runs: crack, then segment.
+  // A counting sort by list, stable, so each list keeps the order of the runs: crack, then facet.
   starts_.assign(lists + 2, 0);
   for (const Run& run : runs_) {
     const std::size_t begin = rows_[static_cast<std::size_t>(run.row)].list(run.first) + 2;
@@ -80,7 +123,7 @@ void FacetBins::build(const BinGrid& grid, std::span<const CrackPath> cracks) {
     total += n;
     n = static_cast<std::uint32_t>(total);
   }
-  if (total > UINT32_MAX) throw std::length_error("crack segments seen from more than 2^32 cells in all");
+  if (total > UINT32_MAX) throw std::length_error("facets of cracks seen from more than 2^32 cells in all");
   facets_.resize(total);
   // Now list k begins at starts_[k + 1]; filling moves that to where it ends, which is where list k + 1 begins.
   for (const Run& run : runs_) {
@@ -89,32 +132,51 @@ void FacetBins::build(const BinGrid& grid, std::span<const CrackPath> cracks) {
   }
 }
 
-std::span<const FacetRef> FacetBins::facets_of_box(std::array<int, 2> low, std::array<int, 2> high, std::vector<FacetRef>& room) const {
-  const int seen = reach_low_ + reach_high_;  // cells beside its own that one cell sees
-  if (high[0] - low[0] <= seen && high[1] - low[1] <= seen) return facets_of_cell(low[0] + reach_low_, low[1] + reach_low_);
-  room.clear();
-  const int j_last = std::min(high[1], static_cast<int>(rows_.size()) - padding - 1);
-  for (int j = std::max(low[1], -padding); j <= j_last; ++j) {
-    const Row& row = rows_[static_cast<std::size_t>(j + padding)];
-    const int first = std::max(low[0], row.first), last = std::min(high[0], row.last);
-    if (first > last) continue;
-    room.insert(room.end(), facets_.begin() + starts_[row.list(first)], facets_.begin() + starts_[row.list(last) + 1]);
+template <int Dim>
+template <class F>
+bool FacetBins<Dim>::any_row(const Cell& low, const Cell& high, F f) const {
+  const auto first_of = [&](int axis) { return std::max(low[axis], -padding); };
+  const auto last_of = [&](int axis) { return std::min(high[axis], rows_along_[axis] - padding - 1); };
+  const int k_first = Dim == 3 ? first_of(Dim - 1) : 0, k_last = Dim == 3 ? last_of(Dim - 1) : 0;
+  const int j_first = first_of(1), j_last = last_of(1);
+  for (int k = k_first; k <= k_last; ++k) {
+    for (int j = j_first; j <= j_last; ++j) {
+      const int number = (Dim == 3 ? (k + padding) * rows_along_[1] : 0) + j + padding;
+      const Row& row = rows_[static_cast<std::size_t>(number)];
+      const int first = std::max(low[0], row.first), last = std::min(high[0], row.last);
+      if (first <= last && f(row, first, last)) return true;
+    }
   }
+  return false;
+}
+
+template <int Dim>
+std::span<const FacetRef> FacetBins<Dim>::facets_of_box(const Cell& low, const Cell& high, std::vector<FacetRef>& room) const {
+  const int seen = reach_low_ + reach_high_;  // cells beside its own that one cell sees
+  bool small = true;
+  Cell middle;
+  for (int k = 0; k < Dim; ++k) {
+    small = small && high[k] - low[k] <= seen;
+    middle[k] = low[k] + reach_low_;
+  }
+  if (small) return facets_of_cell(middle);
+  room.clear();
+  any_row(low, high, [&](const Row& row, int first, int last) {
+    room.insert(room.end(), facets_.begin() + starts_[row.list(first)], facets_.begin() + starts_[row.list(last) + 1]);
+    return false;
+  });
   std::sort(room.begin(), room.end());
   room.erase(std::unique(room.begin(), room.end()), room.end());
   return room;
 }
 
-bool FacetBins::any_in_box(const std::array<int, 2>& low, const std::array<int, 2>& high) const {
+template <int Dim>
+bool FacetBins<Dim>::any_in_box(const Cell& low, const Cell& high) const {
   if (facets_.empty()) return false;
-  const int j_last = std::min(high[1], static_cast<int>(rows_.size()) - padding - 1);
-  for (int j = std::max(low[1], -padding); j <= j_last; ++j) {
-    const Row& row = rows_[static_cast<std::size_t>(j + padding)];
-    const int first = std::max(low[0], row.first), last = std::min(high[0], row.last);
-    if (first > last) continue;
-    if (starts_[row.list(first)] != starts_[row.list(last) + 1]) return true;
-  }
-  return false;
+  return any_row(low, high, [&](const Row& row, int first, int last) { return starts_[row.list(first)] != starts_[row.list(last) + 1]; });
 }
+
+template class FacetBins<2>;
+template class FacetBins<3>;
 
 }  // namespace crampon

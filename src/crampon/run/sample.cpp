@@ -126,6 +126,7 @@ CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work) {
   Field opening{"opening", "m", 1, {}}, sliding{"sliding", "m", 1, {}};
   for (const Crack<2>& leading : state.cracks.list) {
     const Crack<2> crack = present_crack(state, work, leading);
+    const std::vector<CrackOpening> openings = openings_of(crack);
     frame.names.push_back(crack.name);
     for (std::size_t v = 0; v < crack.plane.size(); ++v) {
       const auto put = [](std::vector<double>& out, const Vec<2>& x) { out.insert(out.end(), {x[0], x[1], 0.}); };
@@ -133,9 +134,8 @@ CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work) {
       put(frame.upper, crack.upper[v]);
       put(frame.lower, crack.lower[v]);
       put(frame.original, crack.original[v]);
-      const CrackOpening o = opening_at(crack, v);
-      opening.values.push_back(o.opening);
-      sliding.values.push_back(o.sliding);
+      opening.values.push_back(openings[v].opening);
+      sliding.values.push_back(openings[v].sliding);
     }
     frame.begin.push_back(static_cast<std::int64_t>(frame.plane.size() / 3));
   }

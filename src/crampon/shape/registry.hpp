@@ -12,6 +12,7 @@
 #include "crampon/shape/cubic_bspline.hpp"
 #include "crampon/shape/gimp.hpp"
 #include "crampon/shape/linear.hpp"
+#include "crampon/state/grid.hpp"
 
 /// Expands X(Shape, MORE) for each of them. A further one is one file like linear.hpp, which is included above, and one line here.
 #define CRAMPON_SHAPES(X, MORE) \
@@ -92,6 +93,7 @@ inline constexpr int most_nodes_along_axis = [] {
   for_each_shape([&]<class S>(std::type_identity<S>) { most = S::width > most ? S::width : most; });
   return most;
 }();
-inline constexpr int most_nodes_in_plane = most_nodes_along_axis * most_nodes_along_axis;
+template <int Dim>
+inline constexpr int most_nodes = power(most_nodes_along_axis, Dim);
 
 }  // namespace crampon

@@ -8,12 +8,11 @@
 
 #include "crampon/core/members.hpp"
 #include "crampon/core/vector.hpp"
+#include "crampon/geometry/facet.hpp"
 #include "crampon/state/layers.hpp"
 #include "crampon/state/traction_history.hpp"
 
 namespace crampon {
-
-using VertexId = std::uint32_t;
 
 /// A particle that carries a point of a crack's surface along (step/crack_carriers.hpp).
 struct Carrier {
@@ -50,21 +49,22 @@ struct CrackTractionState {
   }
 };
 
-/// One crack. In 2D the vertices of facet k are k and k + 1 of a directed polyline; "above" is left of it (conventions, words and signs).
+/// One crack. In 2D the vertices of facet k are k and k + 1 of a directed polyline; "above" is left of it (conventions, words and signs). In 3D
+/// facets are triangles that share vertices, all turned the same way.
 template <int Dim>
 struct Crack {
   std::string name;
   bool fixed = false;              ///< the plane stays where it is
-  bool closed = false;             ///< last vertex equals the first: no tips
+  bool closed = false;             ///< 2D: the last vertex equals the first: no tips
   std::vector<Vec<Dim>> plane;     ///< present vertices, m
   std::vector<Vec<Dim>> upper;     ///< points of the upper surface, m
   std::vector<Vec<Dim>> lower;     ///< points of the lower surface, m
   std::vector<Vec<Dim>> original;  ///< vertices at the start, m
-  std::vector<std::array<VertexId, Dim>> facets;
+  std::vector<Facet<Dim>> facets;
   Carriers upper_carriers, lower_carriers;  ///< of the surface points
-  /// How far the path goes on beyond its start and its end for those who ask what it cuts, m; 0: the end is a tip (run/crack_ends.hpp).
+  /// 2D, how far the path goes on beyond its start and its end for those who ask what it cuts, m; 0: the end is a tip (run/crack_ends.hpp).
   std::array<double, 2> extension{};
-  /// Bit k of the start and of the end: it lies on a mirror across axis k, behind which the crack goes on as its image.
+  /// 2D, bit k of the start and of the end: it lies on a mirror across axis k, behind which the crack goes on as its image.
   std::array<std::uint8_t, 2> mirrored{};
   CrackTractionState<Dim> traction;
 
@@ -100,8 +100,5 @@ struct Cracks {
     visit(Member{"list"}, list);
   }
 };
-
-/// Unit normal of a segment, from above to below: (dy, -dx)/L.
-inline Vec<2> segment_normal(const Vec<2>& a, const Vec<2>& b) { return normalized(Vec<2>{{b[1] - a[1], a[0] - b[0]}}); }
 
 }  // namespace crampon

@@ -59,9 +59,44 @@ struct ContactSums {
   }
 };
 
-/// Sums over the pairs that cross one crack, per node: {n, side, N, count}; n present, N original unit normals (conventions 9, 17).
+/// Sums over the pairs that cross one crack, per node: present normals n, original normals N (unit vectors, conventions 9), sides (conventions
+/// 17) and how many pairs there are. In 2D {n, side, count}, {N, 0, 0}; in 3D {n, side}, {N, count}.
 struct CrossingSums {
   Pack r[2];
+
+  /// Of one pair.
+  template <int Dim>
+  static CrossingSums of_pair(const Vec<Dim>& n, const Vec<Dim>& N, int side) {
+    if constexpr (Dim == 2) {
+      return {{Pack{n[0], n[1], double(side), 1.}, Pack{N[0], N[1], 0., 0.}}};
+    } else {
+      return {{Pack{n[0], n[1], n[2], double(side)}, Pack{N[0], N[1], N[2], 1.}}};
+    }
+  }
+  template <int Dim>
+  Vec<Dim> normals() const {
+    return first<Dim>(r[0]);
+  }
+  template <int Dim>
+  Vec<Dim> original_normals() const {
+    return first<Dim>(r[1]);
+  }
+  template <int Dim>
+  double side() const {
+    return r[0][Dim];
+  }
+  template <int Dim>
+  double count() const {
+    return Dim == 2 ? r[0][3] : r[1][3];
+  }
+
+ private:
+  template <int Dim>
+  static Vec<Dim> first(Pack a) {
+    Vec<Dim> x;
+    for (int k = 0; k < Dim; ++k) x[k] = a[k];
+    return x;
+  }
 };
 
 /// Offsets of velocities in folded pairs: twice what the face between has (step/folded_pairs.hpp; 0 at symmetry planes). Entry 0 is zero.

@@ -40,10 +40,9 @@ class BlockAssignment {
   bool needed() const {
     if (!block_.has_particles()) return false;
     const auto first = block_.first_node();
-    if constexpr (Dim == 2) {
-      const std::array<int, 2> low{first[0] - 2, first[1] - 2}, high{first[0] + block_side + 1, first[1] + block_side + 1};
-      if (view_.bins.any_in_box(low, high)) return true;
-    }
+    IndexVector<Dim> low = first, high = first;
+    for (int k = 0; k < Dim; ++k) low[k] -= 2, high[k] += block_side + 1;
+    if (view_.bins.any_in_box(low, high)) return true;
     if constexpr (sees_beyond_faces<Shape>) {
       if (held_.any()) return true;
       for (const SymmetryPlane& plane : model_.symmetries) {
@@ -105,10 +104,7 @@ class BlockAssignment {
     return cell;
   }
   bool near_something(const Pack* x, int l) const {
-    if constexpr (Dim == 2) {
-      const auto cell = cell_of(x, l);
-      if (!view_.bins.empty() && !view_.bins.facets_of_cell(cell[0], cell[1]).empty()) return true;
-    }
+    if (!view_.bins.empty() && !view_.bins.facets_of_cell(cell_of(x, l)).empty()) return true;
     if constexpr (sees_beyond_faces<Shape>) {
       if (held_.any() && held_.near_cell(cell_of(x, l))) return true;
       for (const SymmetryPlane& p : model_.symmetries) {
@@ -134,9 +130,7 @@ class BlockAssignment {
       target[n] = {static_cast<std::uint16_t>(stencil.base[l] + T::steps[n]), own_layer_, 0};
       mirror[n] = fold(x_p, node, x_i[n], target[n]);
     }
-    if constexpr (Dim == 2) {
-      if (!view_.bins.empty() && sees_cracks_) cross(stencil, x, l, x_p, x_i, target, mirror, signature, padding);
-    }
+    if (!view_.bins.empty() && sees_cracks_) cross(stencil, x, l, x_p, x_i, target, mirror, signature, padding);
     for (int n = 0; n < T::stencil; ++n) {
       if (!signature[n].empty()) {
         const int layer = layer_number({field_, signature[n]});
@@ -193,17 +187,16 @@ class BlockAssignment {
     return static_cast<std::uint16_t>(count);
   }
 
-  void cross(const StencilFactors<Dim, Shape>& stencil, const Pack* x, int l, const Vec<2>& x_p, const std::array<Vec<2>, T::stencil>& x_i,
-             const std::array<PairTarget, T::stencil>& target, const std::array<int, T::stencil>& mirror,
-             std::array<Signature, T::stencil>& signature, bool padding) {
-    const auto cell = cell_of(x, l);
-    const auto facets = view_.bins.facets_of_cell(cell[0], cell[1]);
-    std::array<Crossing, T::stencil> crossings;
+  void cross(const StencilFactors<Dim, Shape>& stencil, const Pack* x, int l, const Vec<Dim>& x_p,
+             const std::array<Vec<Dim>, T::stencil>& x_i, const std::array<PairTarget, T::stencil>& target,
+             const std::array<int, T::stencil>& mirror, std::array<Signature, T::stencil>& signature, bool padding) {
+    const std::span<const FacetRef> facets = view_.bins.facets_of_cell(cell_of(x, l));
+    std::array<Crossing<Dim>, T::stencil> crossings;
     for (std::size_t f = 0; f < facets.size();) {
       const CrackId c = facets[f].crack;
       const std::size_t first = f;
       while (f < facets.size() && facets[f].crack == c) ++f;
-      cross_stencil(view_.paths[c], facets.subspan(first, f - first), x_p, x_i, crossings);
+      cross_stencil<Dim>(view_.meshes[c], facets.subspan(first, f - first), x_p, x_i, crossings);
       for (int n = 0; n < T::stencil; ++n) {
         // A corner of the stencil that the particle does not reach (uGIMP) is no pair.
         if (!crossings[n].crosses() || stencil.weight(n, l) == 0) continue;
@@ -216,7 +209,7 @@ class BlockAssignment {
   }
 
   /// \param mirrored  components of the normals that the node in the mirror sees turned round
-  void add_crossing(CrackId c, int node, const Crossing& crossing, unsigned mirrored) {
+  void add_crossing(CrackId c, int node, const Crossing<Dim>& crossing, unsigned mirrored) {
     std::vector<CrackId>& cracks = layers_.tile_cracks;
     const auto at = static_cast<std::size_t>(std::find(cracks.begin(), cracks.end(), c) - cracks.begin());
     if (at == cracks.size()) {
@@ -224,8 +217,8 @@ class BlockAssignment {
       crossing_.resize(cracks.size() * T::nodes, CrossingSums{});
     }
     CrossingSums& sum = crossing_[at * T::nodes + static_cast<std::size_t>(node)];
-    sum.r[0] += flipped(Pack{crossing.normal_sum[0], crossing.normal_sum[1], double(crossing.side()), 1.}, mirrored);
-    sum.r[1] += flipped(Pack{crossing.original_sum[0], crossing.original_sum[1], 0., 0.}, mirrored);
+    const auto of_pair = CrossingSums::of_pair<Dim>(crossing.normal_sum, crossing.original_sum, crossing.side());
+    for (int i = 0; i < 2; ++i) sum.r[i] += flipped(of_pair.r[i], mirrored);
   }
 
   int layer_number(const Layer& layer) {
@@ -280,7 +273,7 @@ class BlockAssignment {
   const State<Dim>& state_;
   const StepWork<Dim>& work_;
   const Model<Dim>& model_;
-  const CrackView& view_;
+  const CrackView<Dim>& view_;
   const Block<Dim>& block_;
   BlockLayers<Dim>& layers_;
   std::vector<CrossingSums>& crossing_;  ///< [crack of the tile][tile node]
@@ -310,9 +303,7 @@ void reset_layers(BlockLayers<Dim>& layers) {
 template <int Dim, class Shape>
 void assign_velocity_fields(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   const double dt = work.now.dt;
-  if constexpr (Dim == 2) {
-    if (!state.cracks.empty()) view_cracks(state, work, model, cells_beyond<Shape>);
-  }
+  if (!state.cracks.empty()) view_cracks(state, work, model, cells_beyond<Shape>);
   std::vector<std::vector<CrossingSums>> crossing(work.blocks.size());
   std::atomic<bool> fits{true};
   const bool may_fold = sees_beyond_faces<Shape> && !model.conditions.empty();

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <vector>
 
 #include "crampon/step/assemble.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/linear_fit.hpp"
 #include "crampon/step/packs.hpp"
 #include "crampon/step/point_fields.hpp"
 #include "crampon/step/view_cracks.hpp"
@@ -15,18 +16,21 @@ namespace crampon {
 namespace {
 
 /// How far from a point its carriers lie at most, in cells along each axis; the first that is good enough is taken. One cell holds two rows
-/// of the usual two particles per cell; a point outside of all material needs more, to tell a turn from a strain from afar.
+/// of the usual two particles per cell and axis; a point outside of all material needs more, to tell a turn from a strain from afar.
 constexpr double reaches[] = {1, 1.5, 2, 3, 4, 6};
-/// Carriers are good enough when they are spread by this in every direction (variance, cells^2) ...
-constexpr double least_variance = 0.02;
-/// ... and the point lies no further from their middle than the square root of this, in standard deviations. On an edge it is 1.7 of them
-/// away, in a corner 2.4.
-constexpr double most_leverage = 8;
 
 /// Particles that can carry points, by cells.
+template <int Dim>
 class ParticleMap {
  public:
-  ParticleMap(const State<2>& state, const Model<2>& model) : grid_(model.grid) {
+  using Cell = IndexVector<Dim>;
+  struct Entry {
+    Cell cell;
+    std::uint32_t id, slot;
+    std::uint16_t field;
+  };
+
+  ParticleMap(const State<Dim>& state, const Model<Dim>& model) : grid_(model.grid) {
     for (const Run& run : state.order.runs) {
       if (model.ignores_cracks(model.materials[run.material].field)) continue;  // no crack parts it
       for (std::size_t p = std::size_t{run.first_pack} * lanes; p < std::size_t{run.end_pack} * lanes; ++p) {
@@ -35,99 +39,64 @@ class ParticleMap {
                          model.materials[run.material].field});
       }
     }
-    std::sort(list_.begin(), list_.end(), [](const Entry& a, const Entry& b) {
-      return std::tuple(a.cell[1], a.cell[0], a.id) < std::tuple(b.cell[1], b.cell[0], b.id);
-    });
+    std::sort(list_.begin(), list_.end(),
+              [](const Entry& a, const Entry& b) { return a.cell == b.cell ? a.id < b.id : comes_before(a.cell, b.cell); });
   }
 
-  struct Entry {
-    std::array<int, 2> cell;
-    std::uint32_t id, slot;
-    std::uint16_t field;
-  };
   /// f(entry) for particles in cells that the box of half sizes reach (cells) about x meets.
   template <class F>
-  void for_box(const Vec<2>& x, double reach, F f) const {
-    const Vec<2> r{{reach * grid_.cell[0], reach * grid_.cell[1]}};
-    const std::array<int, 2> low = cell_of(x - r), high = cell_of(x + r);
-    for (int j = low[1]; j <= high[1]; ++j) {
-      auto at = std::lower_bound(list_.begin(), list_.end(), std::array{j, low[0]}, [](const Entry& e, const std::array<int, 2>& c) {
-        return std::tuple(e.cell[1], e.cell[0]) < std::tuple(c[0], c[1]);
-      });
-      for (; at != list_.end() && at->cell[1] == j && at->cell[0] <= high[0]; ++at) f(*at);
+  void for_box(const Vec<Dim>& x, double reach, F f) const {
+    const Vec<Dim> r = grid_.cell * reach;
+    const Cell low = cell_of(x - r), high = cell_of(x + r);
+    Cell first = low;  // of a row of cells along the first axis
+    for (int k = Dim == 3 ? low[Dim - 1] : 0; k <= (Dim == 3 ? high[Dim - 1] : 0); ++k) {
+      if constexpr (Dim == 3) first[2] = k;
+      for (first[1] = low[1]; first[1] <= high[1]; ++first[1]) {
+        Cell end = first;
+        end[0] = high[0] + 1;
+        const auto in_front = [](const Entry& e, const Cell& cell) { return comes_before(e.cell, cell); };
+        auto at = std::lower_bound(list_.begin(), list_.end(), first, in_front);
+        for (; at != list_.end() && comes_before(at->cell, end); ++at) f(*at);
+      }
     }
   }
 
  private:
-  std::array<int, 2> cell_of(const Vec<2>& x) const {
-    std::array<int, 2> cell;
-    for (std::size_t k = 0; k < 2; ++k) cell[k] = static_cast<int>(std::floor((x[k] - grid_.origin[k]) * grid_.inverse_cell[k]));
+  /// The first axis varies fastest.
+  static bool comes_before(const Cell& a, const Cell& b) {
+    return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
+  }
+  Cell cell_of(const Vec<Dim>& x) const {
+    Cell cell;
+    for (std::size_t k = 0; k < Dim; ++k) cell[k] = static_cast<int>(std::floor((x[k] - grid_.origin[k]) * grid_.inverse_cell[k]));
     return cell;
   }
 
-  const Grid<2>& grid_;
+  const Grid<Dim>& grid_;
   std::vector<Entry> list_;  ///< by cell, then id
 };
 
-/// Weights of particles in the displacement of a point: of the fit of a linear field to theirs, each with some weight of its own.
-struct LinearFit {
-  double leverage = 0, variance = 0;  ///< of the point, 1; smallest of the particles' places, cells^2
-
-  /// y: places less the point, cells; weights: own weights in, weights of the fit out. Directions in which places hardly differ count as
-  /// if the field did not change along them.
-  LinearFit(const std::vector<Vec<2>>& y, std::vector<double>& weights) {
-    double sum = 0;
-    Vec<2> mean{};
-    for (std::size_t i = 0; i < y.size(); ++i) {
-      sum += weights[i];
-      mean += y[i] * weights[i];
-    }
-    mean *= 1 / sum;
-    double xx = 0, xy = 0, yy = 0;
-    for (std::size_t i = 0; i < y.size(); ++i) {
-      const Vec<2> d = y[i] - mean;
-      xx += weights[i] / sum * d[0] * d[0];
-      xy += weights[i] / sum * d[0] * d[1];
-      yy += weights[i] / sum * d[1] * d[1];
-    }
-    const double middle = 0.5 * (xx + yy), half = 0.5 * (xx - yy), root = std::sqrt(half * half + xy * xy);
-    // Directions of most and least spread. Where both are equal, any will do.
-    Vec<2> along{{1, 0}};
-    if (root > 1e-12 * middle) along = half > 0 ? normalized(Vec<2>{{half + root, xy}}) : normalized(Vec<2>{{xy, root - half}});
-    const Vec<2> across{{-along[1], along[0]}};
-    Vec<2> slope{};
-    const auto take = [&](const Vec<2>& e, double spread) {
-      if (spread < least_variance) return;
-      slope -= e * (dot(mean, e) / spread);
-      leverage += dot(mean, e) * dot(mean, e) / spread;
-    };
-    take(along, middle + root);
-    take(across, middle - root);
-    variance = middle - root;
-    for (std::size_t i = 0; i < y.size(); ++i) weights[i] *= (1 + dot(y[i] - mean, slope)) / sum;
-  }
-  bool good() const { return variance >= least_variance && leverage <= most_leverage; }
-};
-
+template <int Dim>
 class CarrierChoice {
  public:
-  CarrierChoice(const State<2>& state, const StepWork<2>& work, const Model<2>& model)
+  CarrierChoice(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model)
       : state_(state), work_(work), model_(model), surroundings_(work, model), map_(state, model) {}
 
   /// Of the side of `from`, which is x or a hair beside it.
-  std::vector<Carrier> carriers(const Vec<2>& x, const Vec<2>& from) const {
+  std::vector<Carrier> carriers(const Vec<Dim>& x, const Vec<Dim>& from) const {
     std::vector<Carrier> chosen;
     for (const double reach : reaches) {
       const std::vector<Candidate> near = candidates(x, from, reach);
       if (near.empty()) continue;
-      std::vector<Vec<2>> y;
+      std::vector<Vec<Dim>> y;
       std::vector<double> weights;
       for (const Candidate& c : near) {
         y.push_back(c.y);
-        const double near_by = (1 - std::fabs(c.y[0]) / reach) * (1 - std::fabs(c.y[1]) / reach);
+        double near_by = 1;
+        for (std::size_t k = 0; k < Dim; ++k) near_by *= 1 - std::fabs(c.y[k]) / reach;
         weights.push_back(state_.particles.mass(c.slot) * near_by * near_by);
       }
-      const LinearFit fit(y, weights);
+      const LinearFit<Dim> fit(y, weights);
       chosen.clear();
       for (std::size_t i = 0; i < near.size(); ++i) chosen.push_back({near[i].id, near[i].flip, weights[i]});
       if (fit.good()) break;
@@ -137,30 +106,30 @@ class CarrierChoice {
 
  private:
   struct Candidate {
-    Vec<2> y;  ///< place less the point, cells
+    Vec<Dim> y;  ///< place less the point, cells
     std::uint32_t id, slot;
     std::uint16_t field;
     std::uint8_t flip;
   };
 
   /// Particles seen within reach, of the velocity field of the nearest one, with their images in mirrors.
-  std::vector<Candidate> candidates(const Vec<2>& x, const Vec<2>& from, double reach) const {
+  std::vector<Candidate> candidates(const Vec<Dim>& x, const Vec<Dim>& from, double reach) const {
     std::vector<Candidate> found;
-    std::vector<Vec<2>> places;
-    map_.for_box(x, reach, [&](const ParticleMap::Entry& e) {
-      const Vec<2> place = state_.particles.position(e.slot);
-      const Vec<2> y = in_cells(place - x);
+    std::vector<Vec<Dim>> places;
+    map_.for_box(x, reach, [&](const typename ParticleMap<Dim>::Entry& e) {
+      const Vec<Dim> place = state_.particles.position(e.slot);
+      const Vec<Dim> y = in_cells(place - x);
       if (!within(y, reach)) return;
       found.push_back({y, e.id, e.slot, e.field, 0});
       places.push_back(place);
     });
     std::vector<Candidate> seen;
-    constexpr std::size_t at_once = most_nodes_in_plane;
+    constexpr std::size_t at_once = most_nodes<Dim>;
     for (std::size_t first = 0; first < places.size(); first += at_once) {
       const std::size_t count = std::min(at_once, places.size() - first);
-      const unsigned hidden = surroundings_.hidden(from, {places.data() + first, count});
+      const auto hidden = surroundings_.hidden(from, {places.data() + first, count});
       for (std::size_t i = 0; i < count; ++i) {
-        if (!(hidden >> i & 1u)) seen.push_back(found[first + i]);
+        if (!hidden[i]) seen.push_back(found[first + i]);
       }
     }
     if (seen.empty()) return seen;
@@ -191,30 +160,37 @@ class CarrierChoice {
   }
 
   /// Cracks and their images behind the mirror part points as they part them in the whole body.
-  bool seen_in_mirror(const SymmetryPlane& mirror, const Vec<2>& from, Vec<2> place) const {
+  bool seen_in_mirror(const SymmetryPlane& mirror, const Vec<Dim>& from, Vec<Dim> place) const {
     const auto k = static_cast<std::size_t>(mirror.axis);
     place[k] = 2 * mirror.at - place[k];
-    return surroundings_.hidden(from, {&place, 1}) == 0;
+    return surroundings_.hidden(from, {&place, 1}).none();
   }
-  Vec<2> in_cells(const Vec<2>& d) const { return {{d[0] * model_.grid.inverse_cell[0], d[1] * model_.grid.inverse_cell[1]}}; }
-  static bool within(const Vec<2>& y, double reach) { return std::fabs(y[0]) < reach && std::fabs(y[1]) < reach; }
+  Vec<Dim> in_cells(Vec<Dim> d) const {
+    for (std::size_t k = 0; k < Dim; ++k) d[k] *= model_.grid.inverse_cell[k];
+    return d;
+  }
+  static bool within(const Vec<Dim>& y, double reach) {
+    return std::all_of(y.c.begin(), y.c.end(), [reach](double along) { return std::fabs(along) < reach; });
+  }
 
-  const State<2>& state_;
-  const StepWork<2>& work_;
-  const Model<2>& model_;
-  PointFields surroundings_;
-  ParticleMap map_;
+  const State<Dim>& state_;
+  const StepWork<Dim>& work_;
+  const Model<Dim>& model_;
+  PointFields<Dim> surroundings_;
+  ParticleMap<Dim> map_;
 };
 
-void choose_for_all(State<2>& state, StepWork<2>& work, const Model<2>& model) {
-  const CarrierChoice choice(state, work, model);
-  const PointFields surroundings(work, model);
-  for (Crack<2>& crack : state.cracks.list) {
+template <int Dim>
+void choose_for_all(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
+  const CarrierChoice<Dim> choice(state, work, model);
+  const PointFields<Dim> surroundings(work, model);
+  for (Crack<Dim>& crack : state.cracks.list) {
     crack.upper_carriers.resize(crack.plane.size());
     crack.lower_carriers.resize(crack.plane.size());
+    const std::vector<Vec<Dim>> normals = vertex_normals(crack);
     for (std::size_t v = 0; v < crack.plane.size(); ++v) {
-      const Vec<2>& x = crack.plane[v];
-      const Vec<2> down = vertex_normal(crack, v);
+      const Vec<Dim>& x = crack.plane[v];
+      const Vec<Dim>& down = normals[v];
       crack.upper_carriers[v] = choice.carriers(x, surroundings.beside(x, -down));
       crack.lower_carriers[v] = choice.carriers(x, surroundings.beside(x, down));
     }
@@ -226,10 +202,8 @@ void choose_for_all(State<2>& state, StepWork<2>& work, const Model<2>& model) {
 template <int Dim, class Shape>
 void choose_carriers(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   if (state.cracks.empty() || !state.cracks.list.front().upper_carriers.empty()) return;
-  if constexpr (Dim == 2) {  // the input admits cracks in 2D only
-    view_cracks(state, work, model, cells_beyond<Shape>);
-    choose_for_all(state, work, model);
-  }
+  view_cracks(state, work, model, cells_beyond<Shape>);
+  choose_for_all(state, work, model);
 }
 
 template <int Dim>
@@ -245,30 +219,31 @@ void drop_lost_carriers(State<Dim>& state, StepWork<Dim>& work) {
   }
 }
 
-Vec<2> carried_displacement(const State<2>& state, const StepWork<2>& work, const std::vector<Carrier>& carriers, PositionTime time) {
-  Vec<2> sum{};
+template <int Dim>
+Vec<Dim> carried_displacement(const State<Dim>& state, const StepWork<Dim>& work, const std::vector<Carrier>& carriers, PositionTime time) {
+  Vec<Dim> sum{};
   for (const Carrier& c : carriers) {
     const std::uint32_t slot = work.places.slot_of_id[c.particle];
-    const Particles<2>& particles = state.particles;
-    const Vec<2> x = time == PositionTime::present ? particles.present_position(slot) : particles.position(slot),
-                 u = x - particles.original[slot];
-    for (int k = 0; k < 2; ++k) sum[k] += (c.flip >> k & 1u ? -c.weight : c.weight) * u[k];
+    const Particles<Dim>& particles = state.particles;
+    const Vec<Dim> x = time == PositionTime::present ? particles.present_position(slot) : particles.position(slot),
+                   u = x - particles.original[slot];
+    for (int k = 0; k < Dim; ++k) sum[k] += (c.flip >> k & 1u ? -c.weight : c.weight) * u[k];
   }
   return sum;
 }
 
-template <class Shape>
-void find_nodes_of_point(const State<2>& state, const StepWork<2>& work, const Model<2>& model, const std::vector<Carrier>& carriers,
+template <int Dim, class Shape>
+void find_nodes_of_point(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, const std::vector<Carrier>& carriers,
                          std::vector<NodeOfPoint>& nodes) {
-  using T = Tile<2, Shape>;
+  using T = Tile<Dim, Shape>;
   nodes.clear();
-  StencilFactors<2, Shape> factors;
+  StencilFactors<Dim, Shape> factors;
   for (const Carrier& carrier : carriers) {
     const std::uint32_t slot = work.places.slot_of_id[carrier.particle], pack = slot / lanes;
     const std::uint32_t b = work.places.block_of_pack[pack];
-    const Block<2>& block = work.blocks.list[b];
-    const BlockLayers<2>& layers = work.nodes.layers[b];
-    BlockStencils<2, Shape> stencils(state, work, model, b);
+    const Block<Dim>& block = work.blocks.list[b];
+    const BlockLayers<Dim>& layers = work.nodes.layers[b];
+    BlockStencils<Dim, Shape> stencils(state, work, model, b);
     std::uint32_t r = block.first_run;
     while (pack >= state.order.runs[r].end_pack) ++r;
     stencils.enter_run(r);
@@ -281,19 +256,21 @@ void find_nodes_of_point(const State<2>& state, const StepWork<2>& work, const M
       const PairTarget target =
           targets ? targets[lane * T::stencil + n]
                   : PairTarget{static_cast<std::uint16_t>(factors.lowest(lane) + T::steps[n]), static_cast<std::uint8_t>(factors.layer), 0};
-      IndexVector<2> local = unflatten<2>(target.node, T::side);
-      int neighbour = 0, stride = 1;
-      for (int k = 0; k < 2; ++k) {
+      IndexVector<Dim> local = unflatten<Dim>(target.node, T::side);
+      int neighbour = 0, stride = 1, node = 0, node_stride = 1;
+      for (int k = 0; k < Dim; ++k) {
         local[k] -= T::offset;
         const int step = local[k] < 0 ? -1 : local[k] >= block_side ? 1 : 0;
         local[k] -= step * block_side;
         neighbour += (step + 1) * stride;
         stride *= 3;
+        node += local[k] * node_stride;
+        node_stride *= block_side;
       }
       NodeOfPoint at;
       at.block = block.neighbours[neighbour];
-      const BlockLayers<2>& there = work.nodes.layers[at.block];
-      at.slot = there.slot(layer_of<2>(there.node, layers.tile[target.layer]), local[1] * block_side + local[0]);
+      const BlockLayers<Dim>& there = work.nodes.layers[at.block];
+      at.slot = there.slot(layer_of<Dim>(there.node, layers.tile[target.layer]), node);
       at.flip = static_cast<std::uint8_t>(carrier.flip ^ target.flip);
       auto same = std::find_if(nodes.begin(), nodes.end(), [&](const NodeOfPoint& q) { return q.slot == at.slot && q.flip == at.flip; });
       if (same == nodes.end()) same = nodes.insert(nodes.end(), at);
@@ -302,15 +279,17 @@ void find_nodes_of_point(const State<2>& state, const StepWork<2>& work, const M
   }
 }
 
-#define CRAMPON_INSTANTIATE(DIM, SHAPE) template void choose_carriers<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);
+#define CRAMPON_INSTANTIATE(DIM, SHAPE)                                                                                                  \
+  template void choose_carriers<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&);                                             \
+  template void find_nodes_of_point<DIM, SHAPE>(const State<DIM>&, const StepWork<DIM>&, const Model<DIM>&, const std::vector<Carrier>&, \
+                                                std::vector<NodeOfPoint>&);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
-template void drop_lost_carriers<2>(State<2>&, StepWork<2>&);
-template void drop_lost_carriers<3>(State<3>&, StepWork<3>&);
-#define CRAMPON_INSTANTIATE(SHAPE)                                                                                            \
-  template void find_nodes_of_point<SHAPE>(const State<2>&, const StepWork<2>&, const Model<2>&, const std::vector<Carrier>&, \
-                                           std::vector<NodeOfPoint>&);
-CRAMPON_FOR_ALL_SHAPES_IN_PLANE(CRAMPON_INSTANTIATE)
+#define CRAMPON_INSTANTIATE(DIM)                                      \
+  template void drop_lost_carriers<DIM>(State<DIM>&, StepWork<DIM>&); \
+  template Vec<DIM> carried_displacement<DIM>(const State<DIM>&, const StepWork<DIM>&, const std::vector<Carrier>&, PositionTime);
+CRAMPON_INSTANTIATE(2)
+CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE
 
 }  // namespace crampon

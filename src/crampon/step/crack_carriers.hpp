@@ -10,7 +10,7 @@
 
 namespace crampon {
 
-/// Chooses the carriers of all surface points, once, where particles and cracks are at the start. Fills State::crack_view.
+/// Chooses the carriers of all surface points, once, where particles and cracks are at the start. Fills StepWork::crack_view.
 template <int Dim, class Shape>
 void choose_carriers(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
@@ -22,7 +22,8 @@ void drop_lost_carriers(State<Dim>& state, StepWork<Dim>& work);
 enum class PositionTime { leading, present };
 
 /// Displacement of a point since the start, m. It has carriers.
-Vec<2> carried_displacement(const State<2>& state, const StepWork<2>& work, const std::vector<Carrier>& carriers, PositionTime time);
+template <int Dim>
+Vec<Dim> carried_displacement(const State<Dim>& state, const StepWork<Dim>& work, const std::vector<Carrier>& carriers, PositionTime time);
 
 /// A part of what moves a surface point: the velocity of a node in one field, with component k reversed where bit k of flip is set.
 struct NodeOfPoint {
@@ -34,8 +35,8 @@ struct NodeOfPoint {
 
 /// The nodes that carriers take their velocity from: a point moves with sum w v, and a force f on it gives them w f. None twice with the
 /// same flip; in the order of discovery. Overwrites `nodes`.
-template <class Shape>
-void find_nodes_of_point(const State<2>& state, const StepWork<2>& work, const Model<2>& model, const std::vector<Carrier>& carriers,
+template <int Dim, class Shape>
+void find_nodes_of_point(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, const std::vector<Carrier>& carriers,
                          std::vector<NodeOfPoint>& nodes);
 
 }  // namespace crampon

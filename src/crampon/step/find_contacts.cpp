@@ -159,14 +159,12 @@ class NodeFinder {
     cracks_.clear();
     for (std::size_t c = 0; c < layers_.node_cracks.size(); ++c) {
       const CrossingSums& sum = work_.nodes.crossing[(layers_.crossing_node_begin + c) * block_nodes<Dim> + node.node];
-      if (sum.r[0][3] == 0) continue;
+      if (sum.count<Dim>() == 0) continue;
       CrackAtNode<Dim> crack;
       crack.crack = layers_.node_cracks[c];
-      Vec<Dim> n, N;
-      for (int k = 0; k < 2; ++k) n[k] = sum.r[0][k], N[k] = sum.r[1][k];
-      crack.n = normalized(place_.mirrors.mean(n));
-      crack.N = normalized(place_.mirrors.mean(N));
-      crack.side = sum.r[0][2];
+      crack.n = normalized(place_.mirrors.mean(sum.normals<Dim>()));
+      crack.N = normalized(place_.mirrors.mean(sum.original_normals<Dim>()));
+      crack.side = sum.side<Dim>();
       cracks_.push_back(crack);
       out_.sides.push_back({node.number, crack.crack, static_cast<std::int8_t>((crack.side > 0 ? 1 : 0) - (crack.side < 0 ? 1 : 0))});
     }

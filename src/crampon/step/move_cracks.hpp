@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "crampon/step/model.hpp"
 #include "crampon/step/step_work.hpp"
 
@@ -21,11 +23,32 @@ void carry_cracks(State<Dim>& state, StepWork<Dim>& work);
 template <int Dim>
 Crack<Dim> present_crack(const State<Dim>& state, const StepWork<Dim>& work, Crack<Dim> crack);
 
-/// Opening and sliding of a vertex, m: the vector from the lower to the upper surface point along the upward normal and the tangent
-/// of the crack plane there.
+/// Opening and sliding of a vertex, m: the vector from the lower to the upper surface point, along the normal from below to above and along the
+/// crack plane there. In the plane sliding has a sign: it is counted along the direction of the path. In space it is the length of the part along
+/// the crack plane.
 struct CrackOpening {
   double opening = 0, sliding = 0;
 };
-CrackOpening opening_at(const Crack<2>& crack, std::size_t vertex);
+/// Of all vertices.
+template <int Dim>
+std::vector<CrackOpening> openings_of(const Crack<Dim>& crack);
+
+/// What openings are measured along, at one vertex.
+template <int Dim>
+struct OpeningFrame {
+  Vec<Dim> down;     ///< unit normal, from above to below
+  Vec<Dim> tangent;  ///< unit vector along which sliding is counted; in space zero where there is none
+  CrackOpening opening;
+
+  OpeningFrame(const Crack<Dim>& crack, std::size_t vertex, const Vec<Dim>& normal) : down(normal) {
+    const Vec<Dim> gap = crack.upper[vertex] - crack.lower[vertex];
+    if constexpr (Dim == 2) {  // a plane has one tangent, so that both senses can be told apart
+      tangent = Vec<2>{{-down[1], down[0]}};
+    } else {
+      tangent = normalized(gap - down * dot(gap, down));
+    }
+    opening = {-dot(gap, down), dot(gap, tangent)};
+  }
+};
 
 }  // namespace crampon

@@ -3,8 +3,10 @@
 /// the material on its side. Planes and surface points of cracks ask here, and so does whoever needs a field beside a crack.
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "crampon/step/model.hpp"
 #include "crampon/step/step_work.hpp"
@@ -12,7 +14,7 @@
 namespace crampon {
 
 /// Some things, at most as many as the widest stencil has nodes.
-template <class T>
+template <int Dim, class T>
 class ForNodes {
  public:
   const T* begin() const { return list_.data(); }
@@ -26,54 +28,63 @@ class ForNodes {
   void push_back(const T& item) { list_[count_++] = item; }
 
  private:
-  std::array<T, most_nodes_in_plane> list_;
+  std::array<T, most_nodes<Dim>> list_;
   std::size_t count_ = 0;
 };
 
-/// Unit normal at a vertex, from above to below: the mean of the segments that meet there, behind a mirror the image of the last one.
-Vec<2> vertex_normal(const Crack<2>& crack, std::size_t vertex);
+/// Unit normals at the vertices of a crack, from above to below. In the plane the normal halves the corner between the two segments that meet, long
+/// or short. In space it is the mean of the triangles about the vertex, weighted by their areas. The last segment before a mirror meets its image
+/// there.
+template <int Dim>
+std::vector<Vec<Dim>> vertex_normals(const Crack<Dim>& crack);
 
 /// A node as a point sees it.
+template <int Dim>
 struct PointNode {
   double S = 0;             ///< of a point without size (docs/theory/kinematics.md, shape functions)
-  Vec<2> G;                 ///< its gradient, 1/m
-  Vec<2> x;                 ///< of the node, m
+  Vec<Dim> G;               ///< its gradient, 1/m
+  Vec<Dim> x;               ///< of the node, m
   std::uint32_t block = 0;  ///< where it lives ...
   int local = 0;            ///< ... and its number there
   std::size_t slot = 0;     ///< in the nodal arrays, of the field that the point sees; only as PointFields::at finds it
 };
-using PointNodes = ForNodes<PointNode>;
+template <int Dim>
+using PointNodes = ForNodes<Dim, PointNode<Dim>>;
 
+template <int Dim>
 class PointFields {
  public:
   /// Cracks are those of StepWork::crack_view; nodes have what the last stage of the step has left there.
-  PointFields(const StepWork<2>& work, const Model<2>& model) : work_(work), model_(model), nudge_(1e-8 * model.grid.smallest_cell()) {}
+  PointFields(const StepWork<Dim>& work, const Model<Dim>& model) : work_(work), model_(model), nudge_(1e-8 * model.grid.smallest_cell()) {}
 
   /// The nodes that S reaches from x, of blocks that are there, whatever lies between.
-  PointNodes nodes(const Vec<2>& x) const;
+  PointNodes<Dim> nodes(const Vec<Dim>& x) const;
 
   /// The nodes about x with the slot of the velocity field that material field `field` has on the side of x: that of particles at x. Nodes at which
   /// it has no mass are left out, so that S need not add up to 1. For the side of a crack on which x lies see beside().
-  PointNodes at(const Vec<2>& x, std::uint16_t field) const;
+  PointNodes<Dim> at(const Vec<Dim>& x, std::uint16_t field) const;
 
   /// A hair beside a vertex of a crack's plane, to the side of the unit vector `out`. On a mirror, where the path ends but not the crack, a
   /// little inside the body.
-  Vec<2> beside(const Vec<2>& vertex, const Vec<2>& out) const;
+  Vec<Dim> beside(const Vec<Dim>& vertex, const Vec<Dim>& out) const;
 
-  /// Bit i is set when a crack lies between `from` and place i, of up to most_nodes_in_plane.
-  unsigned hidden(const Vec<2>& from, std::span<const Vec<2>> places) const;
+  /// Bit i is set when a crack lies between `from` and place i, of up to most_nodes<Dim>.
+  std::bitset<most_nodes<Dim>> hidden(const Vec<Dim>& from, std::span<const Vec<Dim>> places) const;
 
  private:
   template <class F>
-  void for_crossings(const Vec<2>& from, std::span<const Vec<2>> places, F f) const;
+  void for_crossings(const Vec<Dim>& from, std::span<const Vec<Dim>> places, F f) const;
 
-  const StepWork<2>& work_;
-  const Model<2>& model_;
+  const StepWork<Dim>& work_;
+  const Model<Dim>& model_;
   double nudge_;  ///< m
 };
 
-/// Of the nodes that PointFields::at has found: velocity, m/s, and its gradient, 1/s, by their sums S v and v G.
-Vec<2> velocity_at(const StepWork<2>& work, const PointNodes& nodes);
-std::array<Vec<2>, 2> velocity_gradient_at(const StepWork<2>& work, const PointNodes& nodes);
+/// Of the nodes that PointFields::at has found: velocity, m/s, and its gradient, 1/s, by their sums S v and v G. L[d][k]: of component d along
+/// axis k.
+template <int Dim>
+Vec<Dim> velocity_at(const StepWork<Dim>& work, const PointNodes<Dim>& nodes);
+template <int Dim>
+std::array<Vec<Dim>, Dim> velocity_gradient_at(const StepWork<Dim>& work, const PointNodes<Dim>& nodes);
 
 }  // namespace crampon

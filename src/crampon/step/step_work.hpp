@@ -153,7 +153,7 @@ template <int Dim>
 struct StepWork {
   Blocks<Dim> blocks;
   ParticlePlaces places;
-  CrackView crack_view;
+  CrackView<Dim> crack_view;
   Nodes<Dim> nodes;
   std::vector<BlockScratch<Dim>> scratch;  ///< per block
   FaceContacts<Dim> face_contacts;
@@ -166,7 +166,7 @@ struct StepWork {
   StepWork() = default;
   StepWork(StepWork&&) noexcept = default;
   StepWork& operator=(StepWork&&) noexcept = default;
-  StepWork(const StepWork&) = delete;  // paths of cracks are views into it
+  StepWork(const StepWork&) = delete;  // meshes of cracks are views into it
   StepWork& operator=(const StepWork&) = delete;
 };
 

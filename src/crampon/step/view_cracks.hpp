@@ -6,12 +6,14 @@
 
 namespace crampon {
 
-/// Fills State::crack_view. `reach`: how many cells beyond its own a particle has nodes.
-void view_cracks(State<2>& state, StepWork<2>& work, const Model<2>& model, int reach);
+/// Fills StepWork::crack_view. `reach`: how many cells beyond its own a particle has nodes.
+template <int Dim>
+void view_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, int reach);
 
 /// A line from a particle to a node beyond a symmetry plane crosses `crack`. Mirrored in the plane, the line ends at the mirror node, and
 /// it crosses the image of the crack. Returns this image, by which the pair is parted from the mirror node. The image of an image is the
 /// crack itself.
-CrackId seen_in_mirror(const CrackView& view, CrackId crack, std::size_t plane);
+template <int Dim>
+CrackId seen_in_mirror(const CrackView<Dim>& view, CrackId crack, std::size_t plane);
 
 }  // namespace crampon

@@ -54,6 +54,8 @@ bool parts_some_pair(const Start<2>& start, const Crack<2>& crack) {
   for (const Vec<2>& v : crack.plane) {
     for (std::size_t k = 0; k < 2; ++k) low[k] = std::fmin(low[k], v[k]), high[k] = std::fmax(high[k], v[k]);
   }
+  const std::vector<FacetNeighbours<2>> neighbours = find_neighbours<2>(crack.facets, crack.plane.size(), crack.closed);
+  const CrackMesh<2> mesh{crack.plane, crack.facets, neighbours};
   const int reach = with_shape(start.model.shape_functions, []<class Shape>(std::type_identity<Shape>) { return cells_beyond<Shape> + 1; });
   for (std::size_t b = 0; b < start.problem.bodies.size(); ++b) {
     if (start.model.ignores_cracks(start.bodies[b].field())) continue;
@@ -67,7 +69,7 @@ bool parts_some_pair(const Start<2>& start, const Crack<2>& crack) {
       if (!near) continue;
       for (int j = 1 - reach; j <= reach; ++j) {
         for (int i = 1 - reach; i <= reach; ++i) {
-          if (cross_path({crack.plane, {}, crack.closed}, p.x, grid.node_position({cell[0] + i, cell[1] + j})).crosses()) return true;
+          if (cross_crack(mesh, p.x, grid.node_position({cell[0] + i, cell[1] + j})).crosses()) return true;
         }
       }
     }

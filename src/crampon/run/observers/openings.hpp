@@ -43,10 +43,11 @@ class Openings final : public Observer<Dim> {
     const auto counts = [&](std::size_t v) { return cracked[v] && (crack.closed || (v > 0 && v + 1 < n)); };
     bool any = false;
     for (std::size_t v = 0; v < n; ++v) any = any || counts(v);
+    const std::vector<CrackOpening> openings = openings_of(crack);
     Extremes e;
     for (std::size_t v = 0; v < n; ++v) {
       if (any && !counts(v)) continue;
-      const CrackOpening o = opening_at(crack, v);
+      const CrackOpening& o = openings[v];
       e.low = std::fmin(e.low, o.opening);
       e.high = std::fmax(e.high, o.opening);
       e.slid = std::fmax(e.slid, std::fabs(o.sliding));

@@ -94,29 +94,27 @@ class PieceSearch {
   }
 
   bool sees_cracks(const IndexVector<Dim>& cell) const {
-    if constexpr (Dim == 2) {
-      const FacetBins& bins = work_.crack_view.bins;
-      return !bins.empty() && bins.any_in_box({cell[0] - 1, cell[1] - 1}, {cell[0] + 1, cell[1] + 1});
-    }
-    return false;
+    const FacetBins<Dim>& bins = work_.crack_view.bins;
+    IndexVector<Dim> low = cell, high = cell;
+    for (int k = 0; k < Dim; ++k) --low[k], ++high[k];
+    return !bins.empty() && bins.any_in_box(low, high);
   }
 
   void join_if_seen(std::size_t i, std::size_t j) {
     if (first_of(i) == first_of(j)) return;
-    if constexpr (Dim == 2) {
-      const Entry &a = list_[i], &b = list_[j];
-      const auto ignores_cracks = [&](const Entry& e) { return model_.ignores_cracks(model_.materials[e.material].field); };
-      const bool whole = ignores_cracks(a) && ignores_cracks(b);
-      const Vec<2> x = state_.particles.position(a.slot), y = state_.particles.position(b.slot);
-      const auto facets = work_.crack_view.bins.facets_of_box({std::min(a.cell[0], b.cell[0]), std::min(a.cell[1], b.cell[1])},
-                                                              {std::max(a.cell[0], b.cell[0]), std::max(a.cell[1], b.cell[1])}, room_);
-      for (std::size_t f = 0; f < facets.size() && !whole;) {
-        std::size_t end = f;
-        while (end < facets.size() && facets[end].crack == facets[f].crack) ++end;
-        const bool bonded = model_.law_across(facets[f].crack).joins();
-        if (!bonded && cross_path(work_.crack_view.paths[facets[f].crack], facets.subspan(f, end - f), x, y).crosses()) return;
-        f = end;
-      }
+    const Entry &a = list_[i], &b = list_[j];
+    const auto ignores_cracks = [&](const Entry& e) { return model_.ignores_cracks(model_.materials[e.material].field); };
+    const bool whole = ignores_cracks(a) && ignores_cracks(b);
+    const Vec<Dim> x = state_.particles.position(a.slot), y = state_.particles.position(b.slot);
+    IndexVector<Dim> low{}, high{};
+    for (int k = 0; k < Dim; ++k) low[k] = std::min(a.cell[k], b.cell[k]), high[k] = std::max(a.cell[k], b.cell[k]);
+    const std::span<const FacetRef> facets = work_.crack_view.bins.facets_of_box(low, high, room_);
+    for (std::size_t f = 0; f < facets.size() && !whole;) {
+      std::size_t end = f;
+      while (end < facets.size() && facets[end].crack == facets[f].crack) ++end;
+      const bool bonded = model_.law_across(facets[f].crack).joins();
+      if (!bonded && cross_crack<Dim>(work_.crack_view.meshes[facets[f].crack], facets.subspan(f, end - f), x, y).crosses()) return;
+      f = end;
     }
     join(i, j);
   }
@@ -143,9 +141,7 @@ void start_rotations(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& m
   Pieces<Dim>& pieces = state.pieces;
   pieces = {};
   if (model.rotation == RotationTransfer::n03) return;
-  if constexpr (Dim == 2) {
-    if (!state.cracks.empty()) view_cracks(state, work, model, 1);
-  }
+  if (!state.cracks.empty()) view_cracks(state, work, model, 1);
   const PieceSearch<Dim> search(state, work, model);
   const auto& list = search.list();
   pieces.of_field.assign(model.fields.size(), no_piece);
