@@ -10,7 +10,7 @@
 #include <string>
 
 #include "crampon/contact/law.hpp"
-#include "crampon/step/contact_booking.hpp"
+#include "crampon/contact/pair_work.hpp"
 #include "unit/contact_cases.hpp"
 
 namespace crampon::test {

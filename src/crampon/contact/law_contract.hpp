@@ -2,11 +2,9 @@
 /// What a struct must have to be a contact law. A member that is missing or has another form is named by the first error of the compiler.
 
 #include <concepts>
-#include <string_view>
-#include <vector>
 
 #include "crampon/contact/law_questions.hpp"
-#include "crampon/core/declaration.hpp"
+#include "crampon/core/declared.hpp"
 
 namespace crampon {
 
@@ -14,18 +12,6 @@ namespace contact_contract {
 
 // One concept a member, so that an error can name it. Nothing has a default: with one, a law that forgets to ask for the area or to say that it
 // remembers slip would build without a word and be frictionless.
-template <class Law>
-concept has_name = requires {
-  std::string_view(Law::name);
-};
-template <class Law>
-concept has_declaration = requires {
-  { Law::declaration() } -> std::same_as<const Declaration<Law>&>;
-};
-template <class Law>
-concept has_examples = requires {
-  { Law::examples() } -> std::same_as<std::vector<Law>>;
-};
 template <class Law>
 concept says_how_faces_meet = requires {
   requires std::same_as<decltype(Law::meeting), const Meeting>;
@@ -86,11 +72,11 @@ constexpr bool adheres_only_where_it_presses() {
 /// Compiles for a struct that is a contact law.
 template <class Law>
 struct ContactLawContract {
-  static_assert(contact_contract::has_name<Law>, "a contact law needs: static constexpr const char* name = \"...\";");
-  static_assert(contact_contract::has_declaration<Law>,
+  static_assert(declared::has_name<Law>, "a contact law needs: static constexpr const char* name = \"...\";");
+  static_assert(declared::has_declaration<Law>,
                 "a contact law needs: static const Declaration<Law>& declaration(); it says which parameters the input may give");
   static_assert(
-      contact_contract::has_examples<Law>,
+      declared::has_examples<Law>,
       "a contact law needs: static std::vector<Law> examples(); parameters of real contacts, with which tests check the law, one for each "
       "way in which it acts");
   static_assert(contact_contract::says_how_faces_meet<Law>,

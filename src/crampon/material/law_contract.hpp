@@ -2,9 +2,8 @@
 /// What a struct must have to be a material law. A member that is missing or has another form is named by the first error of the compiler.
 
 #include <concepts>
-#include <string_view>
 
-#include "crampon/core/declaration.hpp"
+#include "crampon/core/declared.hpp"
 #include "crampon/material/law_variable.hpp"
 #include "crampon/material/stress_state.hpp"
 
@@ -14,14 +13,6 @@ namespace law_contract {
 
 // One concept a member, so that an error can name it. Nothing has a default: a default that a new law forgets to change is a wrong answer without
 // a word.
-template <class Law>
-concept has_name = requires {
-  std::string_view(Law::name);
-};
-template <class Law>
-concept has_declaration = requires {
-  { Law::declaration() } -> std::same_as<const Declaration<Law>&>;
-};
 template <class Law>
 concept has_example = requires {
   { Law::example() } -> std::same_as<Law>;
@@ -87,8 +78,8 @@ constexpr bool variables_fit() {
 /// Compiles for a struct that is a material law.
 template <class Law>
 struct MaterialLawContract {
-  static_assert(law_contract::has_name<Law>, "a material law needs: static constexpr const char* name = \"...\";");
-  static_assert(law_contract::has_declaration<Law>,
+  static_assert(declared::has_name<Law>, "a material law needs: static constexpr const char* name = \"...\";");
+  static_assert(declared::has_declaration<Law>,
                 "a material law needs: static const Declaration<Law>& declaration(); it says which parameters the input may give");
   static_assert(law_contract::has_example<Law>,
                 "a material law needs: static Law example(); the parameters of a real material, with which tests check the law");

@@ -17,8 +17,8 @@ template <int Dim>
 std::vector<std::size_t> fields_named(const Problem& problem, const Model<Dim>& model, const std::string& name) {
   std::vector<std::size_t> out;
   const auto add = [&](const std::string& field) {
-    for (std::size_t f = 0; f < model.fields.size(); ++f) {
-      if (model.fields[f].name == field && std::find(out.begin(), out.end(), f) == out.end()) out.push_back(f);
+    for (std::size_t f = 0; f < model.contact.fields.size(); ++f) {
+      if (model.contact.fields[f].name == field && std::find(out.begin(), out.end(), f) == out.end()) out.push_back(f);
     }
   };
   add(name);
@@ -35,7 +35,7 @@ std::vector<std::size_t> fields_named(const Problem& problem, const Model<Dim>& 
 template <int Dim>
 std::vector<std::string> names_about(const Problem& problem, const Model<Dim>& model) {
   std::vector<std::string> names;
-  for (const MaterialField& field : model.fields) {
+  for (const MaterialField& field : model.contact.fields) {
     if (!field.name.empty()) names.push_back(field.name);
   }
   for (const BodyInput& body : problem.bodies) names.push_back(body.name), names.push_back(body.material);
@@ -46,12 +46,12 @@ std::vector<std::string> names_about(const Problem& problem, const Model<Dim>& m
 
 template <int Dim>
 void set_pair(const ContactPairInput& in, std::size_t a, std::size_t b, Model<Dim>& model) {
-  const std::size_t n = model.fields.size();
-  model.field_laws[a * n + b] = model.field_laws[b * n + a] = in.contact;
+  const std::size_t n = model.contact.fields.size();
+  model.contact.field_laws[a * n + b] = model.contact.field_laws[b * n + a] = in.contact;
   Vec<Dim> normal;
   for (std::size_t k = 0; k < in.normal.size() && k < Dim; ++k) normal[k] = in.normal[k];
-  model.field_normals[a * n + b] = normalized(normal);
-  model.field_normals[b * n + a] = -normalized(normal);
+  model.contact.field_normals[a * n + b] = normalized(normal);
+  model.contact.field_normals[b * n + a] = -normalized(normal);
 }
 
 template <int Dim>
@@ -80,17 +80,16 @@ void add_pair(const Problem& problem, const ContactPairInput& in, Model<Dim>& mo
 template <int Dim>
 void find_bonds(Model<Dim>& model) {
   const auto bonded = [&](std::uint16_t a, std::uint16_t b) {
-    return model.contact.pairs == ContactPairs::joint && model.law_between(a, b).joins() && !model.ignores_cracks(a) &&
-           !model.ignores_cracks(b);
+    return model.contact.joins(model.contact.law_between(a, b)) && !model.ignores_cracks(a) && !model.ignores_cracks(b);
   };
-  const auto count = static_cast<std::uint16_t>(model.fields.size());
+  const auto count = static_cast<std::uint16_t>(model.contact.fields.size());
   for (std::uint16_t a = 0; a < count; ++a) {
-    model.fields[a].bonded_to = a;
+    model.contact.fields[a].bonded_to = a;
     for (std::uint16_t b = 0; b < a; ++b) {
-      const std::uint16_t from = model.fields[a].bonded_to, to = model.fields[b].bonded_to;
+      const std::uint16_t from = model.contact.fields[a].bonded_to, to = model.contact.fields[b].bonded_to;
       if (!bonded(a, b) || from == to) continue;
       for (std::uint16_t f = 0; f <= a; ++f) {
-        std::uint16_t& root = model.fields[f].bonded_to;
+        std::uint16_t& root = model.contact.fields[f].bonded_to;
         if (root == std::max(from, to)) root = std::min(from, to);
       }
     }
@@ -117,15 +116,15 @@ void add_condition(const RigidInput& in, std::size_t body, Model<Dim>& model) {
 
 template <int Dim>
 void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state, std::vector<Diagnostic>& errors) {
-  const std::size_t n = model.fields.size();
-  model.field_laws.assign(n * n, problem.contact.between_fields);
-  model.field_normals.assign(n * n, Vec<Dim>{});
+  const std::size_t n = model.contact.fields.size();
+  model.contact.field_laws.assign(n * n, problem.contact.between_fields);
+  model.contact.field_normals.assign(n * n, Vec<Dim>{});
   for (const ContactPairInput& in : problem.contact_pairs) add_pair(problem, in, model, errors);
   find_bonds(model);
   for (std::size_t w = 0; w < problem.walls.size(); ++w) {
     const std::uint16_t wall = model.rigid_bodies[problem.rigids.size() + w].field;
     for (std::size_t f = 0; f < n; ++f) {
-      if (model.is_rigid(static_cast<int>(f)) || !model.law_between(static_cast<int>(f), wall).has_springs()) continue;
+      if (model.is_rigid(static_cast<int>(f)) || !model.contact.law_between(static_cast<int>(f), wall).has_springs()) continue;
       errors.push_back({problem.walls[w].location,
                         fmt::format("the law between the wall \"{}\" and bodies is an interface", problem.walls[w].name),
                         "a wall has no displacement to hang a spring on",
@@ -139,7 +138,8 @@ void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state,
     // A spring hangs on a displacement, which a shape does not have.
     bool has_springs = false;
     for (int f = 0; f < static_cast<int>(n); ++f)
-      has_springs = has_springs || (!model.is_rigid(static_cast<std::uint16_t>(f)) && model.law_between(f, body.field).has_springs());
+      has_springs =
+          has_springs || (!model.is_rigid(static_cast<std::uint16_t>(f)) && model.contact.law_between(f, body.field).has_springs());
     if (!has_springs || body.acts != RigidBody<Dim>::Acts::face) continue;
     const RigidInput& in = problem.rigids[r];
     if (in.faces) {
@@ -152,6 +152,9 @@ void build_contact(const Problem& problem, Model<Dim>& model, State<Dim>& state,
                         "no particle's place lies in its shape", "make it thicker, or use smaller cells or more particles_per_cell"});
     }
     body.acts = RigidBody<Dim>::Acts::particles;
+  }
+  for (const RigidBody<Dim>& body : model.rigid_bodies) {
+    model.contact.fields[body.field].meets_at_nodes = body.acts == RigidBody<Dim>::Acts::particles;
   }
   state.rigid.resize(model.rigid_bodies.size());
   for (std::size_t r = 0; r < state.rigid.size(); ++r) {

@@ -197,7 +197,7 @@ void build_cracks(const Problem& problem, const BuiltBodies<2>& bodies, BuiltMod
     crack.closed = crack.plane.size() > 3 && crack.plane.front() == crack.plane.back();
     crack.upper = crack.lower = crack.original = crack.plane;
     for (VertexId v = 0; v + 1 < crack.plane.size(); ++v) crack.facets.push_back({v, v + 1});
-    model.crack_laws.push_back(in.contact);
+    model.contact.crack_laws.push_back(in.contact);
     crack.extension = extensions(crack, material);
     crack.mirrored = mirrored_ends(crack, model);
     model.tractions.push_back(build_traction(problem, in, crack, material, 1e-9 * grid.smallest_cell(), errors));
@@ -224,7 +224,7 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
   const bool has_domains = crampon::has_domains(model.shape_functions);
   particles.packs = packs;
   particles.history_size = history;
-  particles.remembers_contact = model.remembers_contact();
+  particles.remembers_contact = model.contact.remembers_contact();
   particles.has_domains = has_domains;
   particles.allocate();
   for (std::size_t m = 0; m < by_material.size(); ++m) {
@@ -243,12 +243,12 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
         const std::size_t slot = k * lanes + l, i = slot - std::size_t{run.first_pack} * lanes;
         const bool real = i < by_material[m].size();
         const NewParticle<Dim>& p = bodies.particles[by_material[m][real ? i : by_material[m].size() - 1]];
-        const MaterialField& field = model.fields[model.materials[m].field];
+        const MaterialField& field = model.contact.fields[model.materials[m].field];
         particles.set_motion(slot, p.x, field.rigid ? state.rigid[static_cast<std::size_t>(field.body)].start.velocity_at(p.x) : p.v);
         particles.mass_volume[2 * k][l] = real ? p.mass : 0.;
         particles.mass_volume[2 * k + 1][l] = real ? p.volume : 0.;
         particles.original[slot] = p.x;
-        if (model.remembers_contact()) particles.contact[slot] = 0;
+        if (model.contact.remembers_contact()) particles.contact[slot] = 0;
         particles.id[slot] = real ? by_material[m][i] : padding_id;
         particles.body[slot] = p.body;
       }
@@ -283,15 +283,15 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   model.transfer = problem.method.transfer;
   model.damped = model.damping.depends_on_time() || model.damping(0, {}) != 0;
   const ContactInput& contact = problem.contact;
-  model.contact = {contact.scheme,           contact.detection,        contact.pairs,
-                   contact.reference_volume, contact.volume_separated, contact.volume_contact,
-                   contact.require_approach, contact.mass_screen,      contact.material_detection,
-                   contact.position_cutoff,  contact.normal,           contact.rigid_bias,
-                   contact.several_materials};
+  static_cast<ContactChoices&>(model.contact) = {contact.scheme,           contact.detection,        contact.pairs,
+                                                 contact.reference_volume, contact.volume_separated, contact.volume_contact,
+                                                 contact.require_approach, contact.mass_screen,      contact.material_detection,
+                                                 contact.position_cutoff,  contact.normal,           contact.rigid_bias,
+                                                 contact.several_materials};
 
   BuiltBodies<Dim> bodies = build_bodies<Dim>(problem, model.grid, errors);
   model.materials = std::move(bodies.materials);
-  model.fields = std::move(bodies.fields);
+  model.contact.fields = std::move(bodies.fields);
   model.rigid_bodies = std::move(bodies.rigid_bodies);
   model.bodies = bodies.names;
   build_conditions(problem, model, errors);

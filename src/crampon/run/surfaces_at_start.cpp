@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "crampon/contact/find_pairs.hpp"
 #include "crampon/geometry/combine.hpp"
 #include "crampon/geometry/placed.hpp"
 #include "crampon/geometry/way_out.hpp"
@@ -85,10 +86,10 @@ void keep_surfaces(const Problem& problem, const BuiltBodies<Dim>& bodies, const
   const bool any_stress = std::any_of(problem.bodies.begin(), problem.bodies.end(),
                                       [](const BodyInput& body) { return !std::holds_alternative<NoInitialStress>(body.initial_stress); });
   if (any_stress) keep_undeformed(state, model, bodies.particles.size());
-  if (!model.any_rigid_face() && !(model.fields.size() > 1 && model.outlines_tell(model.contact.material_detection))) return;
+  if (!model.any_rigid_face() && !(model.contact.several_fields() && outlines_tell(model.contact.material_detection, model.grid))) return;
   std::vector<std::uint16_t> joined(problem.bodies.size());
   for (const NewParticle<Dim>& p : bodies.particles) {
-    if (p.body < joined.size()) joined[p.body] = model.fields[model.materials[p.material].field].bonded_to;
+    if (p.body < joined.size()) joined[p.body] = model.contact.fields[model.materials[p.material].field].bonded_to;
   }
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) model.shapes.push_back(whole_of(problem, model, joined, b));
   const double cell = model.grid.smallest_cell();

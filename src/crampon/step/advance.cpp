@@ -28,7 +28,7 @@ struct Whether {
   static bool rigid_bodies_prescribe(S, W, M m) { return m.any_prescribing_body(); }
   static bool rigid_faces_meet(S, W, M m) { return m.any_rigid_face(); }
   static bool rigid_faces_meet_anew(S, W w, M m) { return w.now.transfer.re_extrapolates && m.any_rigid_face(); }
-  static bool bodies_meet(S, W, M m) { return m.any_contact(); }
+  static bool bodies_meet(S, W, M m) { return m.contact.any_contact(); }
   static bool faces_are_loaded(S, W, M m) { return !m.faces.empty(); }
   static bool cracks_bear_tractions(S, W, M m) { return m.any_tractions(); }
   static bool there_are_cracks(S s, W, M) { return !s.cracks.empty(); }

@@ -307,7 +307,7 @@ void assign_velocity_fields(State<Dim>& state, StepWork<Dim>& work, const Model<
   std::vector<std::vector<CrossingSums>> crossing(work.blocks.size());
   std::atomic<bool> fits{true};
   const bool may_fold = sees_beyond_faces<Shape> && !model.conditions.empty();
-  if (!state.cracks.empty() || may_fold || model.fields.size() > 1) {
+  if (!state.cracks.empty() || may_fold || model.contact.several_fields()) {
     parallel_for(work.blocks.size(), model.threads, [&](std::size_t b) {
       BlockLayers<Dim>& layers = work.nodes.layers[b];
       reset_layers(layers);

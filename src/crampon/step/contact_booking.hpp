@@ -2,11 +2,9 @@
 /// What contact at nodes and contact with rigid faces have in common: rules, the change of a node, and what is booked.
 
 #include <algorithm>
-#include <cmath>
 
-#include "crampon/contact/interface.hpp"
 #include "crampon/contact/node_solve.hpp"
-#include "crampon/contact/response.hpp"
+#include "crampon/contact/pair_work.hpp"
 #include "crampon/step/model.hpp"
 #include "crampon/step/step_work.hpp"
 
@@ -42,30 +40,6 @@ void change_node(Nodes<Dim>& nodes, std::size_t i, const Vec<Dim>& dp, ContactTa
   for (int k = 0; k < Dim; ++k) nodes.momentum[i][k] += dp[k];
   if (task != ContactTask::four) return;
   for (int k = 0; k < Dim; ++k) nodes.force[i][k] += dp[k] / dt;
-}
-
-/// What Task 4 has given along the face where it slips.
-template <int Dim>
-Vec<Dim> rubbing(const ContactPair<Dim>& pair) {
-  if (pair.state != ContactState::slip || holds_as_interface(pair)) return {};
-  return pair.J - pair.n * dot(pair.J, pair.n);
-}
-
-/// Work that friction takes in a step: its impulse times the mean slip (docs/theory/contact.md, energy). The slip is that of the particles,
-/// which carry the mass, in the mean about the node: w_start before and `w_end` after they have moved. Nodal velocities of Task 4 grow
-/// without bound where a node holds little mass; what particles take of them does not.
-template <int Dim>
-double friction_work(const ContactPair<Dim>& pair, const Vec<Dim>& w_end) {
-  const double share = pair.is_virtual() ? 0.5 : 1;  // there every face is met from both of its sides
-  return share * std::fmax(-0.5 * dot(pair.rubbing, pair.w_start + w_end), 0.);
-}
-
-/// The distance that a pair whose law remembers slip has slipped in the step, after Task 4 has left w, m/s.
-template <int Dim>
-void note_slip(ContactPair<Dim>& pair, const Vec<Dim>& w, double dt) {
-  if (pair.law->remembers() != Remembered::slip || pair.state != ContactState::slip) return;
-  const Vec<Dim> mean = (w + pair.w_settled) * 0.5;
-  pair.history_gain = norm(mean - pair.n * dot(mean, pair.n)) * dt;
 }
 
 /// What a rigid body gives to the others in Task 4: F, N, and its moment about the body's centre.

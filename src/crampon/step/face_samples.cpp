@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crampon/contact/separation.hpp"
 #include "crampon/geometry/way_out.hpp"
-#include "crampon/step/face_to_face.hpp"
 
 namespace crampon {
 
@@ -91,7 +91,7 @@ void FaceSampler<Dim>::sample_sums(const FaceGroup<Dim>& group, const std::size_
   mean = mean * (1 / group.m);
   const auto to_edge = [&](const Vec<Dim>& n) {
     const PlaneInCells plane = plane_in_cells(model_.grid.cell, n);
-    return -model_.fields[part.field].edge.edge_distance(-dot(mean, n) / plane.h, plane) * plane.h - dot(mean, n);
+    return -model_.contact.fields[part.field].edge.edge_distance(-dot(mean, n) / plane.h, plane) * plane.h - dot(mean, n);
   };
   const Vec<Dim> out_of_material = normalized(part.gradient);
   if (out_of_material == Vec<Dim>{}) return;

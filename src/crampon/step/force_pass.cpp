@@ -16,7 +16,7 @@ void project_rigid_motion(const State<Dim>& state, const StepWork<Dim>& work, co
   using T = Tile<Dim, Shape>;
   for_packs<Dim, Shape>(state, work, model, b,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {
-                          const MaterialField& field = model.fields[model.materials[run.material].field];
+                          const MaterialField& field = model.contact.fields[model.materials[run.material].field];
                           if (!field.rigid) return;
                           const RigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(field.body)];
                           for (int l = 0; l < lanes; ++l) {

@@ -68,7 +68,7 @@ void lay_out_nodes(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mod
   Nodes<Dim>& nodes = work.nodes;
   const std::size_t blocks = work.blocks.size();
   const bool cracked = !state.cracks.empty();
-  const bool several = cracked || model.fields.size() > 1;
+  const bool several = cracked || model.contact.several_fields();
   parallel_for(blocks, model.threads, [&](std::size_t b) {
     find_node_layers<Dim, Shape>(work, b);
     if (several) nodes.layers[b].near_face = block_is_near_face(state, work, model, b);

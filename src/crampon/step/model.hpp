@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "crampon/contact/edge_map.hpp"
-#include "crampon/contact/law.hpp"
+#include "crampon/contact/contact_model.hpp"
 #include "crampon/core/function.hpp"
 #include "crampon/core/options.hpp"
 #include "crampon/crack/symmetry_fold.hpp"
@@ -33,19 +32,6 @@ struct Material {
   double thickness = 1;       ///< m, 2D
   HalfSize<Dim> half_size{};  ///< of a particle, in cells (uGIMP)
   std::uint16_t field = 0;    ///< material field (N13 sec. 1.2)
-};
-
-/// A velocity field of its own (N13 sec. 1.2): of one material, of one body, or of a group that the input names.
-struct MaterialField {
-  std::string name;
-  bool rigid = false;           ///< of a rigid body: masses on its nodes are volumes, 1 kg/m3
-  bool ignores_cracks = false;  ///< cracks do not part it: rigid, or as the input has it
-  int body = -1;                ///< rigid: index into Model::rigid_bodies
-  std::uint16_t bonded_to = 0;  ///< the lowest field to which a chain of bonded laws joins it; itself where there is none
-  double thickness = 1;         ///< m, 2D
-  double half_size = 0;         ///< of its particles, along their longest side, cells
-  double uneven_edge = 0;       ///< how deep behind its surface its particles may fill space unevenly, cells
-  EdgeMap edge;                 ///< from the mean position of its particles about a node to its edge
 };
 
 /// A body that moves as prescribed (N13 sec. 3, rigid materials).
@@ -105,9 +91,6 @@ struct Model {
   Grid<Dim> grid;
   StressState stress_state = StressState::plane_strain;
   std::vector<Material<Dim>> materials;
-  std::vector<MaterialField> fields{1};
-  std::vector<ContactLawSpec> field_laws{1};  ///< [field][field], symmetric
-  std::vector<Vec<Dim>> field_normals{1};     ///< [field][field]: normal from the first to the second; zero: to be found
   std::vector<RigidBody<Dim>> rigid_bodies;
   /// By number of a particle: from its middle at the start to the nearest point of its body's surface, m. Zero: deep in its body; not a number:
   /// nobody knows (particles from a file). Kept where rigid faces or outlines ask for it.
@@ -116,8 +99,7 @@ struct Model {
   /// By number of a particle: columns of the inverse of its deformation gradient at the start; empty where none bears stress from the start.
   std::vector<std::array<Vec<Dim>, Dim>> undeformed;
   std::vector<std::string> bodies;
-  std::vector<ContactLawSpec> crack_laws;  ///< per crack
-  std::vector<CrackTraction> tractions;    ///< per crack
+  std::vector<CrackTraction> tractions;  ///< per crack
   std::vector<VelocityCondition<Dim>> conditions;
   std::vector<SymmetryPlane> symmetries;
   std::vector<Load<Dim>> loads;
@@ -135,20 +117,7 @@ struct Model {
   BoundaryOrder boundary_order = BoundaryOrder::contact_first;
   FixedForce fixed_force = FixedForce::incremental;
   LeavingParticle leaving_particle = LeavingParticle::error;
-  struct Contact {
-    ContactScheme scheme = ContactScheme::consistent;
-    ContactDetection detection = ContactDetection::displacement;
-    ContactPairs pairs = ContactPairs::joint;
-    ReferenceVolume reference_volume = ReferenceVolume::initial;
-    double volume_separated = 0.9, volume_contact = 1.1;  ///< V_sep, V_contact (N03 section 2.2)
-    bool require_approach = true;                         ///< also above V_contact (conventions 6)
-    double mass_screen = 1e-6;                            ///< conventions 37
-    ContactDetection material_detection = ContactDetection::position;
-    std::optional<double> position_cutoff;  ///< cells; none: by MaterialField::edge
-    ContactNormal normal = ContactNormal::logistic_regression;
-    double rigid_bias = 10;  ///< a rigid body's gradient is taken unless it is smaller by more than this
-    SeveralMaterials several_materials = SeveralMaterials::pairwise;
-  } contact;
+  ContactModel<Dim> contact;
   int threads = 1;
 
   StepTransfer transfer_in(std::int64_t step) const { return step_transfer(transfer, stress_update, positions, step); }
@@ -159,41 +128,12 @@ struct Model {
     return std::any_of(rigid_bodies.begin(), rigid_bodies.end(),
                        [](const RigidBody<Dim>& body) { return body.acts == RigidBody<Dim>::Acts::face; });
   }
-  /// Are gaps those of the particles' outlines, one by one? In cells of unequal sides what a node sees of an oblique face depends too much on
-  /// where the face ends for mean positions to tell.
-  bool outlines_tell(ContactDetection detection) const {
-    return detection == ContactDetection::regression || (detection == ContactDetection::position && !grid.has_even_cells());
-  }
-  /// Does a field meet others at nodes, by its particles?
-  bool meets_at_nodes(const MaterialField& field) const {
-    return !field.rigid || rigid_bodies[static_cast<std::size_t>(field.body)].acts == RigidBody<Dim>::Acts::particles;
-  }
   bool any_body_force() const { return !body_force.empty(); }
   bool any_tractions() const {
     return std::any_of(tractions.begin(), tractions.end(), [](const CrackTraction& t) { return t.acts(); });
   }
-  /// Does some contact law ask for areas, or for what particles remember of contact?
-  bool needs_areas() const {
-    return any_law([](const ContactLaw& law) { return law.needs_area(); });
-  }
-  bool remembers_contact() const {
-    return any_contact() && any_law([](const ContactLaw& law) { return law.needs_history(); });
-  }
-  template <class F>
-  bool any_law(F asks) const {
-    const auto any = [&](const std::vector<ContactLawSpec>& laws) {
-      return std::any_of(laws.begin(), laws.end(), [&](const ContactLawSpec& law) { return asks(*law); });
-    };
-    return any(field_laws) || any(crack_laws);
-  }
-  bool any_contact() const { return fields.size() > 1 || !crack_laws.empty(); }
-  const ContactLaw& law_between(int a, int b) const {
-    return *field_laws[static_cast<std::size_t>(a) * fields.size() + static_cast<std::size_t>(b)];
-  }
-  /// Images of cracks in symmetry planes, which have the same laws, follow the cracks (CrackView::seen).
-  const ContactLaw& law_across(CrackId crack) const { return *crack_laws[crack % crack_laws.size()]; }
-  bool is_rigid(std::uint16_t field) const { return fields[field].rigid; }
-  bool ignores_cracks(std::uint16_t field) const { return fields[field].ignores_cracks; }
+  bool is_rigid(std::uint16_t field) const { return contact.fields[field].rigid; }
+  bool ignores_cracks(std::uint16_t field) const { return contact.fields[field].ignores_cracks; }
 };
 
 /// Is stress updated with the velocities of Task 2, or with those of Task 6? USAVG does both, half of the step each (N03 Eq. 35).

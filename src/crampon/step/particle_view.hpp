@@ -93,7 +93,7 @@ class PackView {
  private:
   std::pair<Vec<Dim>, Vec<Dim>> present_motion(std::size_t p) const {
     const Particles<Dim>& particles = state_.particles;
-    const MaterialField& field = model_.fields[model_.materials[material_].field];
+    const MaterialField& field = model_.contact.fields[model_.materials[material_].field];
     if (!field.rigid || particles.lead == 0) return {particles.present_position(p), particles.velocity(p)};
     const RigidMotion<Dim>& motion = state_.rigid[static_cast<std::size_t>(field.body)];
     const Vec<Dim> x = motion.present.place(particles.original[p] - model_.rigid_bodies[static_cast<std::size_t>(field.body)].centre);

@@ -19,7 +19,7 @@ void place_rigid_particles(State<Dim>& state, StepWork<Dim>& work, const Model<D
   const Block<Dim>& block = work.blocks.list[b];
   for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
     const Run& run = state.order.runs[r];
-    const MaterialField& field = model.fields[model.materials[run.material].field];
+    const MaterialField& field = model.contact.fields[model.materials[run.material].field];
     if (!field.rigid) continue;
     const auto body = static_cast<std::size_t>(field.body);
     const RigidPose<Dim>& pose = state.rigid[body].*at;

@@ -2,10 +2,8 @@
 /// What a struct must have to be a traction law. A member that is missing or has another form is named by the first error of the compiler.
 
 #include <concepts>
-#include <string_view>
-#include <vector>
 
-#include "crampon/core/declaration.hpp"
+#include "crampon/core/declared.hpp"
 #include "crampon/core/vector.hpp"
 #include "crampon/crack/traction/response.hpp"
 
@@ -15,24 +13,12 @@ namespace traction_contract {
 
 // One concept a member, so that an error can name it. Nothing has a default, as with contact laws (contact/law_contract.hpp).
 template <class Law>
-concept has_name = requires {
-  std::string_view(Law::name);
-};
-template <class Law>
 concept has_input = requires {
   typename Law::Input;
 };
 template <class Law>
-concept has_declaration = requires {
-  { Law::declaration() } -> std::same_as<const Declaration<typename Law::Input>&>;
-};
-template <class Law>
 concept can_be_made = requires(const typename Law::Input input) {
   { Law::make(input) } -> std::same_as<Law>;
-};
-template <class Law>
-concept has_examples = requires {
-  { Law::examples() } -> std::same_as<std::vector<Law>>;
 };
 template <class Law>
 concept says_whether_it_acts = requires {
@@ -64,15 +50,15 @@ concept has_toughness = requires(const Law law) {
 /// Compiles for a struct that is a traction law.
 template <class Law>
 struct TractionLawContract {
-  static_assert(traction_contract::has_name<Law>, "a traction law needs: static constexpr const char* name = \"...\";");
+  static_assert(declared::has_name<Law>, "a traction law needs: static constexpr const char* name = \"...\";");
   static_assert(
       traction_contract::has_input<Law>,
       "a traction law needs: using Input = ...; the struct of its parameters in the input, the law itself where they are the same");
-  static_assert(traction_contract::has_declaration<Law>,
+  static_assert(declared::has_declaration<Law, typename Law::Input>,
                 "a traction law needs: static const Declaration<Input>& declaration(); it says which parameters the input may give");
   static_assert(traction_contract::can_be_made<Law>, "a traction law needs: static Law make(const Input&)");
   static_assert(
-      traction_contract::has_examples<Law>,
+      declared::has_examples<Law>,
       "a traction law needs: static std::vector<Law> examples(); parameters of real cracks, with which tests check the law, one for each "
       "way in which it acts");
   static_assert(traction_contract::says_whether_it_acts<Law>,

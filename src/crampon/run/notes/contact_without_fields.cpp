@@ -55,7 +55,7 @@ void note_contact_without_fields(const Start<Dim>& start, Notes& notes) {
   for (const char* key : keys_about_bodies) {
     if (problem.contact.keys.contains(key)) stated.emplace_back(key);
   }
-  const auto& fields = start.model.fields;
+  const auto& fields = start.model.contact.fields;
   const auto deformable = std::count_if(fields.begin(), fields.end(), [](const MaterialField& f) { return !f.rigid; });
   if (stated.empty() || deformable > 1) return;
   const bool any_rigid = std::any_of(start.model.rigid_bodies.begin(), start.model.rigid_bodies.end(),

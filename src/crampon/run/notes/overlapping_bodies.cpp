@@ -57,7 +57,7 @@ void note_overlapping_bodies(const Start<Dim>& start, Notes& notes) {
       const BodySpace<Dim>&first = start.bodies[a], &second = start.bodies[b];
       if (!boxes_meet(first, second)) continue;
       const std::uint16_t f = first.field(), g = second.field();
-      if (f != g && start.model.law_between(f, g).ignores()) continue;  // they pass through each other
+      if (f != g && start.model.contact.law_between(f, g).ignores()) continue;  // they pass through each other
       // An edge that bodies share puts particles of both on it; a tool may touch a particle.
       const double slack = rigid ? -1e-6 * h : 1e-9 * h;
       const BodySpace<Dim>* of = &first;

@@ -14,7 +14,7 @@ void note_particles_in_walls(const Start<Dim>& start, Notes& notes) {
     std::size_t inside = 0;
     for (std::size_t b = 0; b < start.problem.bodies.size(); ++b) {
       const BodySpace<Dim>& body = start.bodies[b];
-      if (model.law_between(body.field(), wall.field).ignores()) continue;
+      if (model.contact.law_between(body.field(), wall.field).ignores()) continue;
       for (const auto& p : body.particles()) inside += distance_from(wall, start.state.rigid[r].start, p.x) < -model.grid.smallest_cell();
     }
     if (inside == 0) continue;

@@ -35,7 +35,7 @@ template <int Dim>
 int field_on_both_sides(const Start<Dim>& start, std::size_t r) {
   const Model<Dim>& model = start.model;
   const double near = 2 * model.grid.smallest_cell();
-  std::vector<std::vector<Vec<Dim>>> sides(model.fields.size());
+  std::vector<std::vector<Vec<Dim>>> sides(model.contact.fields.size());
   for (std::size_t b = 0; b < start.problem.bodies.size(); ++b) {
     const BodySpace<Dim>& body = start.bodies[b];
     for (const auto& p : body.particles()) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crampon/contact/groups.hpp"
 #include "crampon/step/contact_cloud.hpp"
-#include "crampon/step/contact_groups.hpp"
 #include "crampon/step/face_samples.hpp"
-#include "crampon/step/face_to_face.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/mirrors_at.hpp"
 #include "crampon/step/rigid_faces.hpp"
 
 namespace crampon {
@@ -45,7 +45,7 @@ class FaceFinder {
         present_.push_back(static_cast<int>(l));
     }
     if (present_.empty()) return;
-    const int groups = find_groups(layers_, model_, present_, group_of_);
+    const int groups = find_groups(layers_.node, model_.contact, present_, group_of_);
     for (int g = 0; g < groups; ++g) meet_faces(node, x, g);
   }
 
@@ -72,8 +72,8 @@ class FaceFinder {
       mean += sums.present();
       part.gradient += sums.gradient();
       part.history += sums.history();
-      part.known_as = std::min(part.known_as, model_.fields[layer.field].bonded_to);
-      part.cracks = without_joined(layer.cracks, model_);
+      part.known_as = std::min(part.known_as, model_.contact.fields[layer.field].bonded_to);
+      part.cracks = without_joined(layer.cracks, model_.contact);
       if (sums.volume() > most) most = sums.volume(), part.field = layer.field;
     }
     group.end_slot = static_cast<std::uint32_t>(out_.slots.size());
@@ -83,13 +83,13 @@ class FaceFinder {
     bool any = false;
     for (const std::size_t r : near_) {
       const RigidBody<Dim>& body = model_.rigid_bodies[r];
-      if (model_.law_between(part.field, body.field).ignores()) continue;
+      if (model_.contact.law_between(part.field, body.field).ignores()) continue;
       const RigidFaceView<Dim> view = see_face(body, state_.rigid[r].start, x + mean);
       const Vec<Dim> n = normalized(mirrors.mean(-view.out));
       if (n == Vec<Dim>{}) continue;
       // Deeper in the material than the reach of its sums, and the face is nothing to the node.
       const double depth = view.distance + dot(mean, n);
-      const double reach = boxes_of(model_.shape_functions).reach_of_sums() + model_.fields[part.field].uneven_edge;
+      const double reach = boxes_of(model_.shape_functions).reach_of_sums() + model_.contact.fields[part.field].uneven_edge;
       if (depth > reach_across(model_.grid, reach, n) * (1 - 1e-9)) continue;
       part.body = static_cast<std::uint16_t>(r);
       part.axis = 0;

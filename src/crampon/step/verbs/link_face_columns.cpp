@@ -81,9 +81,9 @@ class ColumnLinker {
     column.end = static_cast<std::uint32_t>(out_.parts.size());
     if (column.first == column.end) return;
     const std::uint16_t rigid = model_.rigid_bodies[first.body].field;
-    pair.law = &model_.law_between(first.field, rigid);
+    pair.law = &model_.contact.law_between(first.field, rigid);
     pair.by_gap = true;
-    pair.area = column.w * model_.fields[first.field].thickness;
+    pair.area = column.w * model_.contact.fields[first.field].thickness;
     if (pair.law->needs_history()) pair.history = history / m;
     pair.name.field_a = first.known_as;
     pair.name.field_b = rigid;
@@ -200,9 +200,7 @@ class ColumnLinker {
     return normalized(n);
   }
 
-  Vec<Dim> given_normal(const FacePart<Dim>& p) const {
-    return model_.field_normals[std::size_t{p.field} * model_.fields.size() + model_.rigid_bodies[p.body].field];
-  }
+  Vec<Dim> given_normal(const FacePart<Dim>& p) const { return model_.contact.normal_between(p.field, model_.rigid_bodies[p.body].field); }
 
   /// Columns that share nodes are solved together: they come to lie beside each other.
   void sort_by_sets() {

@@ -96,7 +96,7 @@ void project_contact_sums(State<Dim>& state, StepWork<Dim>& work, const Model<Di
   ContactSums<Dim>* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_contact);
   const Particles<Dim>& particles = state.particles;
   const auto first_node = work.blocks.list[b].first_node();
-  const bool volumes = model.contact.detection == ContactDetection::volume || model.fields.size() > 1 || model.needs_areas();
+  const bool volumes = model.contact.detection == ContactDetection::volume || model.contact.several_fields() || model.contact.needs_areas();
   const bool histories = particles.contact.size() > 0;
   for_packs<Dim, Shape>(
       state, work, model, b, [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run& run) {

@@ -9,7 +9,7 @@ template <int Dim, class Shape>
 void record_initial_volume(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
   using T = Tile<Dim, Shape>;
   const bool by_volume = (!state.cracks.empty() && model.contact.detection == ContactDetection::volume) ||
-                         (model.fields.size() > 1 && model.contact.material_detection == ContactDetection::volume);
+                         (model.contact.several_fields() && model.contact.material_detection == ContactDetection::volume);
   if (state.clock.step != 0 || !by_volume || model.contact.reference_volume != ReferenceVolume::initial) return;
   for (std::size_t b = 0; b < work.blocks.size(); ++b) {
     if (!work.blocks.list[b].has_particles()) continue;

@@ -29,7 +29,7 @@ class PieceSearch {
         for (int k = 0; k < Dim; ++k)
           cell[k] = static_cast<int>(std::floor((x[static_cast<std::size_t>(k)] - model.grid.origin[static_cast<std::size_t>(k)]) *
                                                 model.grid.inverse_cell[static_cast<std::size_t>(k)]));
-        list_.push_back({model.fields[field].bonded_to, run.material, cell, static_cast<std::uint32_t>(p)});
+        list_.push_back({model.contact.fields[field].bonded_to, run.material, cell, static_cast<std::uint32_t>(p)});
       }
     }
     std::sort(list_.begin(), list_.end(), [&](const Entry& a, const Entry& b) {
@@ -112,7 +112,7 @@ class PieceSearch {
     for (std::size_t f = 0; f < facets.size() && !whole;) {
       std::size_t end = f;
       while (end < facets.size() && facets[end].crack == facets[f].crack) ++end;
-      const bool bonded = model_.law_across(facets[f].crack).joins();
+      const bool bonded = model_.contact.law_across(facets[f].crack).joins();
       if (!bonded && cross_crack<Dim>(work_.crack_view.meshes[facets[f].crack], facets.subspan(f, end - f), x, y).crosses()) return;
       f = end;
     }
@@ -144,10 +144,10 @@ void start_rotations(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& m
   if (!state.cracks.empty()) view_cracks(state, work, model, 1);
   const PieceSearch<Dim> search(state, work, model);
   const auto& list = search.list();
-  pieces.of_field.assign(model.fields.size(), no_piece);
+  pieces.of_field.assign(model.contact.fields.size(), no_piece);
   std::vector<std::uint32_t> piece(list.size()), group_of_piece;
-  std::vector<double> mass(model.fields.size(), 0.);  // of groups of bonded fields
-  std::vector<Vec<Dim>> first(model.fields.size());
+  std::vector<double> mass(model.contact.fields.size(), 0.);  // of groups of bonded fields
+  std::vector<Vec<Dim>> first(model.contact.fields.size());
   bool several = false;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (const std::size_t leader = search.first_of(i); leader == i) {

@@ -1,4 +1,4 @@
-#include "crampon/step/face_to_face.hpp"
+#include "crampon/contact/face_to_face.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,36 +48,22 @@ Vec<Dim> apart_at_start(const Face<Dim>& a, const Face<Dim>& b) {
 }  // namespace
 
 template <int Dim>
-Mirrors mirrors_at(const Model<Dim>& model, std::int64_t node_number) {
-  Mirrors mirrors;
-  for (const SymmetryPlane& plane : model.symmetries) {
-    const std::vector<std::int64_t>& nodes = model.conditions[plane.condition].nodes;
-    if (mirrors.axes >> plane.axis & 1u || !std::binary_search(nodes.begin(), nodes.end(), node_number)) continue;
-    mirrors.axes |= 1u << plane.axis;
-    mirrors.images *= 2;
-  }
-  return mirrors;
-}
-template Mirrors mirrors_at<2>(const Model<2>&, std::int64_t);
-template Mirrors mirrors_at<3>(const Model<3>&, std::int64_t);
-
-template <int Dim>
-FaceToFace<Dim>::FaceToFace(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model)
-    : state_(state), work_(work), model_(model) {}
+FaceToFace<Dim>::FaceToFace(const ContactModel<Dim>& contact, const Grid<Dim>& grid, const ContactMemory& memory)
+    : contact_(contact), grid_(grid), memory_(memory) {}
 
 template <int Dim>
 bool FaceToFace<Dim>::see_material(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b, const Face<Dim>& facing,
                                    ContactPair<Dim>& pair) {
-  Vec<Dim> n = model_.field_normals[std::size_t{a.field} * model_.fields.size() + facing.field];
+  Vec<Dim> n = contact_.normal_between(a.field, facing.field);
   if (n == Vec<Dim>{}) n = found_normal(place, a, facing);
   pair.n = normalized(place.mirrors.mean(n));
   if (pair.n == Vec<Dim>{}) return false;
-  const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
+  const PlaneInCells plane = plane_in_cells(grid_.cell, pair.n);
   double depth = 0;  // of the node before a rigid face, in cells
-  if (b.rigid) depth = model_.fields[b.field].edge.edge_distance(dot(b.x, pair.n) / (b.m * plane.h), plane);
-  if (depth >= deepest_held && model_.contact.scheme != ContactScheme::literal) return false;
+  if (b.rigid) depth = contact_.fields[b.field].edge.edge_distance(dot(b.x, pair.n) / (b.m * plane.h), plane);
+  if (depth >= deepest_held && contact_.scheme != ContactScheme::literal) return false;
   pair.volume_ratio = relative_volume(place);
-  pair.gap = gap(model_.contact.material_detection, place, a, b, pair, pair.n);
+  pair.gap = gap(contact_.material_detection, place, a, b, pair, pair.n);
   if (pair.law->needs_area())
     pair.area = (b.rigid ? area_on_rigid(a, b, depth, pair.n, plane) : area_between(a, b, pair.n)) / place.mirrors.images;
   recall_history(place, a, b, pair);
@@ -88,10 +74,9 @@ template <int Dim>
 void FaceToFace<Dim>::part_corner(const MeetingPlace<Dim>& place, const Face<Dim>& a, const Face<Dim>& b,
                                   std::vector<ContactPair<Dim>>& pairs) {
   const ContactPair<Dim> whole = pairs.back();
-  const bool by_regression =
-      model_.contact.normal == ContactNormal::logistic_regression || model_.contact.normal == ContactNormal::linear_regression;
-  const bool given = model_.field_normals[std::size_t{a.field} * model_.fields.size() + b.field] != Vec<Dim>{};
-  const ContactDetection detection = model_.contact.material_detection;
+  const bool by_regression = contact_.normal == ContactNormal::logistic_regression || contact_.normal == ContactNormal::linear_regression;
+  const bool given = contact_.normal_between(a.field, b.field) != Vec<Dim>{};
+  const ContactDetection detection = contact_.material_detection;
   // Where particles were at the start is known of all of a body alone.
   const bool looks_back = whole.law->has_springs() || detection == ContactDetection::displacement;
   if (!by_regression || given || a.rigid || b.rigid || looks_back) return;
@@ -99,7 +84,7 @@ void FaceToFace<Dim>::part_corner(const MeetingPlace<Dim>& place, const Face<Dim
   for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) {
     corner_points_.push_back({point.x, point.half_edges(), regression_weight(point), side});
   });
-  const std::vector<CornerFace<Dim>> faces = find_corner<Dim>(corner_points_, whole.n, model_.grid.cell);
+  const std::vector<CornerFace<Dim>> faces = find_corner<Dim>(corner_points_, whole.n, grid_.cell);
   if (faces.empty()) return;
   pairs.pop_back();
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -162,7 +147,7 @@ bool FaceToFace<Dim>::see_across(const MeetingPlace<Dim>& place, const CrackAtNo
   if (crack.side == 0 || crack.n == Vec<Dim>{}) return false;
   pair.n = crack.n;
   pair.volume_ratio = relative_volume(place);
-  pair.gap = gap(model_.contact.detection, place, a, b, pair, crack.N);
+  pair.gap = gap(contact_.detection, place, a, b, pair, crack.N);
   if (pair.law->needs_area()) pair.area = area_between(a, b, pair.n) / place.mirrors.images;
   recall_history(place, a, b, pair);
   return true;
@@ -171,19 +156,19 @@ bool FaceToFace<Dim>::see_across(const MeetingPlace<Dim>& place, const CrackAtNo
 template <int Dim>
 double FaceToFace<Dim>::cell_volume() const {
   double volume = 1;
-  for (int k = 0; k < Dim; ++k) volume *= model_.grid.cell[k];
+  for (int k = 0; k < Dim; ++k) volume *= grid_.cell[k];
   return volume;
 }
 
 template <int Dim>
 double FaceToFace<Dim>::thickness(const Face<Dim>& a, const Face<Dim>& b) const {
-  return std::fmin(model_.fields[a.field].thickness, model_.fields[b.field].thickness);
+  return std::fmin(contact_.fields[a.field].thickness, contact_.fields[b.field].thickness);
 }
 
 template <int Dim>
 double FaceToFace<Dim>::area_between(const Face<Dim>& a, const Face<Dim>& b, const Vec<Dim>& n) const {
-  return contact_area(a.volume, dot(a.x, n) / a.m, model_.fields[a.field].edge, b.volume, dot(b.x, n) / b.m, model_.fields[b.field].edge,
-                      plane_in_cells(model_.grid.cell, n)) *
+  return contact_area(a.volume, dot(a.x, n) / a.m, contact_.fields[a.field].edge, b.volume, dot(b.x, n) / b.m,
+                      contact_.fields[b.field].edge, plane_in_cells(grid_.cell, n)) *
          thickness(a, b);
 }
 
@@ -192,7 +177,7 @@ double FaceToFace<Dim>::area_between(const Face<Dim>& a, const Face<Dim>& b, con
 template <int Dim>
 double FaceToFace<Dim>::area_on_rigid(const Face<Dim>& a, const Face<Dim>& b, double depth, const Vec<Dim>& n,
                                       const PlaneInCells& plane) const {
-  const EdgeMap& edge = model_.fields[a.field].edge;
+  const EdgeMap& edge = contact_.fields[a.field].edge;
   const double d = edge.edge_distance(-dot(a.x, n) / (a.m * plane.h), plane);
   const double seen = edge.volume_at(d, plane) * cell_volume();
   const double filled = seen > 0 ? std::fmin(a.volume / seen, 1.) : 0.;
@@ -216,9 +201,9 @@ double FaceToFace<Dim>::gap_of_outlines(const MeetingPlace<Dim>& place, const Fa
 template <int Dim>
 double FaceToFace<Dim>::relative_volume(const MeetingPlace<Dim>& place) const {
   double reference = cell_volume();
-  if (model_.contact.reference_volume == ReferenceVolume::initial && !state_.contacts.initial_volume.empty()) {
-    const auto initial = state_.contacts.initial_volume.find(place.number);
-    if (initial != state_.contacts.initial_volume.end() && initial->second > 0) reference = initial->second * place.mirrors.images;
+  if (contact_.reference_volume == ReferenceVolume::initial && !memory_.initial_volume.empty()) {
+    const auto initial = memory_.initial_volume.find(place.number);
+    if (initial != memory_.initial_volume.end() && initial->second > 0) reference = initial->second * place.mirrors.images;
   }
   return place.volume / reference;
 }
@@ -227,7 +212,7 @@ double FaceToFace<Dim>::relative_volume(const MeetingPlace<Dim>& place) const {
 /// as closed.
 template <int Dim>
 double FaceToFace<Dim>::gap_by_volume(double volume_ratio) const {
-  return volume_ratio < model_.contact.volume_separated ? std::numeric_limits<double>::max() : 0.;
+  return volume_ratio < contact_.volume_separated ? std::numeric_limits<double>::max() : 0.;
 }
 
 template <int Dim>
@@ -235,10 +220,11 @@ double FaceToFace<Dim>::gap(ContactDetection detection, const MeetingPlace<Dim>&
                             const ContactPair<Dim>& pair, const Vec<Dim>& original_normal) {
   switch (detection) {
     case ContactDetection::position: {
-      const PlaneInCells plane = plane_in_cells(model_.grid.cell, pair.n);
-      if (model_.contact.position_cutoff) return dot(apart(a, b), pair.n) - *model_.contact.position_cutoff * plane.h;
-      if (!model_.grid.has_even_cells() && !a.rigid && !b.rigid) return gap_of_outlines(place, a, b, pair.n);
-      return position_gap(dot(a.x, pair.n) / a.m, model_.fields[a.field].edge, dot(b.x, pair.n) / b.m, model_.fields[b.field].edge, plane);
+      const PlaneInCells plane = plane_in_cells(grid_.cell, pair.n);
+      if (contact_.position_cutoff) return dot(apart(a, b), pair.n) - *contact_.position_cutoff * plane.h;
+      if (!grid_.has_even_cells() && !a.rigid && !b.rigid) return gap_of_outlines(place, a, b, pair.n);
+      return position_gap(dot(a.x, pair.n) / a.m, contact_.fields[a.field].edge, dot(b.x, pair.n) / b.m, contact_.fields[b.field].edge,
+                          plane);
     }
     case ContactDetection::regression: {
       RegressionGap<Dim> gap(pair.n);
@@ -260,13 +246,13 @@ std::optional<Vec<Dim>> FaceToFace<Dim>::regress(const MeetingPlace<Dim>& place,
   for (const CloudPoint<Dim>& point : *place.points) {
     if (!((a | b) & point.group)) continue;
     LabelledPoint<Dim> labelled;
-    for (int k = 0; k < Dim; ++k) labelled.x[k] = point.x[k] * model_.grid.inverse_cell[k];
+    for (int k = 0; k < Dim; ++k) labelled.x[k] = point.x[k] * grid_.inverse_cell[k];
     labelled.side = a & point.group ? ContactSide::a : ContactSide::b;
     labelled.weight = regression_weight(point);
     labelled_.push_back(labelled);
   }
-  return model_.contact.normal == ContactNormal::logistic_regression ? logistic_regression_normal<Dim>(labelled_, model_.grid.cell)
-                                                                     : linear_regression_normal<Dim>(labelled_, model_.grid.cell);
+  return contact_.normal == ContactNormal::logistic_regression ? logistic_regression_normal<Dim>(labelled_, grid_.cell)
+                                                               : linear_regression_normal<Dim>(labelled_, grid_.cell);
 }
 
 /// Do a and b fill what the node sees between them? Then their outlines are each other's, and their gradients add up to nothing.
@@ -290,15 +276,15 @@ Vec<Dim> FaceToFace<Dim>::normal_among_others(const MeetingPlace<Dim>& place, co
     if (n == Vec<Dim>{}) return;
     RegressionGap<Dim> gap(n);
     for_points(place, a, b, [&](const CloudPoint<Dim>& point, ContactSide side) { gap.add(point.x, point.half_edges(), side); });
-    if (gap.gap() > widest + clearly_wider * model_.grid.smallest_cell()) widest = gap.gap(), best = n;
+    if (gap.gap() > widest + clearly_wider * grid_.smallest_cell()) widest = gap.gap(), best = n;
   };
   try_normal(regress(place, a.groups, b.groups).value_or(Vec<Dim>{}));
   if (others) {
     try_normal(regress(place, a.groups, a.company & ~a.groups).value_or(Vec<Dim>{}));
     try_normal(regress(place, b.company & ~b.groups, b.groups).value_or(Vec<Dim>{}));
   }
-  try_normal(gradient_normal<Dim>(GradientNormal::largest_gradient, {a.g, a.volume, a.rigid}, {b.g, b.volume, b.rigid},
-                                  model_.contact.rigid_bias));
+  try_normal(
+      gradient_normal<Dim>(GradientNormal::largest_gradient, {a.g, a.volume, a.rigid}, {b.g, b.volume, b.rigid}, contact_.rigid_bias));
   try_normal(normalized(a.g));
   try_normal(normalized(-b.g));
   try_normal(normalized(a.g * b.volume - b.g * a.volume));  // how the part of a in both changes: without the outline they have in common
@@ -310,8 +296,8 @@ Vec<Dim> FaceToFace<Dim>::found_normal(const MeetingPlace<Dim>& place, const Fac
   GradientNormal gradient = GradientNormal::largest_gradient;
   const VolumeGradient<Dim> of_a{a.g, a.volume, a.rigid}, of_b{b.g, b.volume, b.rigid};
   // A rigid body shows its own surface better than any regression over both, as in gradient_normal (conventions 33).
-  if (b.rigid && norm(b.g) >= norm(a.g) / model_.contact.rigid_bias) return normalized(-b.g);
-  switch (model_.contact.normal) {
+  if (b.rigid && norm(b.g) >= norm(a.g) / contact_.rigid_bias) return normalized(-b.g);
+  switch (contact_.normal) {
     case ContactNormal::logistic_regression:
     case ContactNormal::linear_regression: {
       if (!are_alone(a, b)) return normal_among_others(place, a, b);
@@ -327,7 +313,7 @@ Vec<Dim> FaceToFace<Dim>::found_normal(const MeetingPlace<Dim>& place, const Fac
     case ContactNormal::largest_gradient:
       break;
   }
-  return gradient_normal<Dim>(gradient, of_a, of_b, model_.contact.rigid_bias);
+  return gradient_normal<Dim>(gradient, of_a, of_b, contact_.rigid_bias);
 }
 
 template class FaceToFace<2>;

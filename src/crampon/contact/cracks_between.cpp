@@ -1,4 +1,4 @@
-#include "crampon/step/cracks_between.hpp"
+#include "crampon/contact/cracks_between.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace crampon {
 
 template <int Dim>
 std::optional<CracksBetween<Dim>> cracks_between(const Signature& first, const Signature& second,
-                                                 const std::vector<CrackAtNode<Dim>>& cracks, const Model<Dim>& model) {
+                                                 const std::vector<CrackAtNode<Dim>>& cracks, const ContactModel<Dim>& contact) {
   CracksBetween<Dim> out;
   out.name.others = first.without(first.without(second));
   int acting = 0;
@@ -22,7 +22,7 @@ std::optional<CracksBetween<Dim>> cracks_between(const Signature& first, const S
     } else {
       out.name.rest.append(crack.crack);
     }
-    const ContactLaw& law = model.law_across(crack.crack);
+    const ContactLaw& law = contact.law_across(crack.crack);
     if (crack.side == 0 || law.ignores()) continue;
     const double to_second = first_across == (crack.side > 0) ? 1 : -1;
     if (acting++ == 0) up = to_second, out.as_one = crack;
@@ -38,7 +38,7 @@ std::optional<CracksBetween<Dim>> cracks_between(const Signature& first, const S
 
 #define CRAMPON_INSTANTIATE(DIM)                                                                                                           \
   template std::optional<CracksBetween<DIM>> cracks_between<DIM>(const Signature&, const Signature&, const std::vector<CrackAtNode<DIM>>&, \
-                                                                 const Model<DIM>&);
+                                                                 const ContactModel<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE

@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "crampon/step/face_to_face.hpp"
+#include "crampon/contact/contact_model.hpp"
+#include "crampon/contact/node_facts.hpp"
 
 namespace crampon {
 
@@ -21,6 +22,6 @@ struct CracksBetween {
 /// Empty when none of the cracks between them acts: contact acts as soon as one does.
 template <int Dim>
 std::optional<CracksBetween<Dim>> cracks_between(const Signature& first, const Signature& second,
-                                                 const std::vector<CrackAtNode<Dim>>& cracks, const Model<Dim>& model);
+                                                 const std::vector<CrackAtNode<Dim>>& cracks, const ContactModel<Dim>& contact);
 
 }  // namespace crampon

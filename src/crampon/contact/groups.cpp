@@ -1,12 +1,13 @@
-#include "crampon/step/contact_groups.hpp"
+#include "crampon/contact/groups.hpp"
 
 #include <algorithm>
 
 namespace crampon {
 
 template <int Dim>
-int find_groups(const BlockLayers<Dim>& layers, const Model<Dim>& model, const std::vector<int>& present, std::vector<int>& group_of) {
-  const auto layer = [&](std::size_t i) -> const Layer& { return layers.node[static_cast<std::size_t>(present[i])]; };
+int find_groups(const std::vector<Layer>& layers, const ContactModel<Dim>& contact, const std::vector<int>& present,
+                std::vector<int>& group_of) {
+  const auto layer = [&](std::size_t i) -> const Layer& { return layers[static_cast<std::size_t>(present[i])]; };
   group_of.assign(present.size(), -1);
   if (present.size() == 1) {
     group_of[0] = 0;
@@ -16,11 +17,12 @@ int find_groups(const BlockLayers<Dim>& layers, const Model<Dim>& model, const s
   std::vector<Signature> reduced;
   for (std::size_t i = 0; i < present.size(); ++i) {
     chain[i] = static_cast<int>(i);
-    reduced.push_back(without_joined(layer(i).cracks, model));
+    reduced.push_back(without_joined(layer(i).cracks, contact));
     for (std::size_t j = 0; j < i; ++j) {
       const std::uint16_t a = layer(j).field, b = layer(i).field;
       if (reduced[i] != reduced[j] || chain[i] == chain[j]) continue;
-      const bool bonded = joins(model, model.law_between(a, b)) && !model.ignores_cracks(a) && !model.ignores_cracks(b);
+      const bool bonded =
+          contact.joins(contact.law_between(a, b)) && !contact.fields[a].ignores_cracks && !contact.fields[b].ignores_cracks;
       if (a != b && !bonded) continue;
       const int low = std::min(chain[i], chain[j]), high = std::max(chain[i], chain[j]);
       for (std::size_t k = 0; k <= i; ++k) {
@@ -38,7 +40,7 @@ int find_groups(const BlockLayers<Dim>& layers, const Model<Dim>& model, const s
   return groups;
 }
 
-template int find_groups<2>(const BlockLayers<2>&, const Model<2>&, const std::vector<int>&, std::vector<int>&);
-template int find_groups<3>(const BlockLayers<3>&, const Model<3>&, const std::vector<int>&, std::vector<int>&);
+template int find_groups<2>(const std::vector<Layer>&, const ContactModel<2>&, const std::vector<int>&, std::vector<int>&);
+template int find_groups<3>(const std::vector<Layer>&, const ContactModel<3>&, const std::vector<int>&, std::vector<int>&);
 
 }  // namespace crampon
