@@ -53,7 +53,7 @@ struct InterfaceSprings {
 };
 
 /// Task 2: only what is held is made to move together. Task 4: all. Task 6: what is held moves together, the other springs as Task 4 has
-/// left them. Positions move as Task 4 has left them in any case (find_drift in step/adjust_contact.cpp).
+/// left them. Positions move as Task 4 has left them in any case (find_drift in step/verbs/adjust_contact.cpp).
 template <int Dim>
 Response<Dim> interface_response(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
   const ContactSprings& law = pair.law->springs();

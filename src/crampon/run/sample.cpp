@@ -8,7 +8,7 @@
 
 #include "crampon/core/parallel.hpp"
 #include "crampon/run/quantities.hpp"
-#include "crampon/step/move_cracks.hpp"
+#include "crampon/step/crack_motion.hpp"
 
 namespace crampon {
 

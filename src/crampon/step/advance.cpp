@@ -1,14 +1,8 @@
 #include "crampon/step/advance.hpp"
 
 #include "crampon/core/parallel.hpp"
-#include "crampon/step/adjust_contact.hpp"
 #include "crampon/step/assemble_momentum.hpp"
-#include "crampon/step/assign_velocity_fields.hpp"
-#include "crampon/step/crack_carriers.hpp"
-#include "crampon/step/crack_tractions.hpp"
-#include "crampon/step/find_contacts.hpp"
 #include "crampon/step/instantiate.hpp"
-#include "crampon/step/move_cracks.hpp"
 #include "crampon/step/verbs.hpp"
 
 namespace crampon {

@@ -10,10 +10,6 @@
 
 namespace crampon {
 
-/// Chooses the carriers of all surface points, once, where particles and cracks are at the start. Fills StepWork::crack_view.
-template <int Dim, class Shape>
-void choose_carriers(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
-
 /// Takes its carriers from a point that has lost one, since they no longer say where it is. After particles were removed.
 template <int Dim>
 void drop_lost_carriers(State<Dim>& state, StepWork<Dim>& work);

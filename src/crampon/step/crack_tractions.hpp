@@ -23,16 +23,4 @@ struct StiffestVertex {
 template <int Dim, class Shape>
 StiffestVertex spread_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
-/// The same as a stage of the step.
-template <int Dim, class Shape>
-void share_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
-
-/// Task 3, own nodes of a block: adds them.
-template <int Dim>
-void add_tractions(StepWork<Dim>& work, std::size_t block);
-
-/// Task 8, after the cracks have moved: tractions where they are now, what is stored and dissipated, and failures. Serial.
-template <int Dim>
-void update_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
-
 }  // namespace crampon

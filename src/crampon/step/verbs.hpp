@@ -2,7 +2,6 @@
 /// The verbs of the time step in the order of the table in step/advance.cpp. Each is defined in the file of its name in step/verbs.
 ///
 /// A verb with a block works for the particles or the own nodes of that block, in parallel with other blocks. The others run once for all blocks.
-/// Verbs of contact at nodes and of cracks are declared in the headers that step/advance.cpp includes beside this one.
 
 #include "crampon/step/model.hpp"
 #include "crampon/step/step_work.hpp"
@@ -21,6 +20,10 @@ void reorder(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 /// expressions are evaluated.
 template <int Dim>
 void move_rigid_bodies(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// Chooses the carriers of all surface points, once, where particles and cracks are at the start. Fills StepWork::crack_view.
+template <int Dim, class Shape>
+void choose_carriers(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 /// At the start of a run: the pieces of material, and about which axes they may turn. Rigid bodies belong to no piece. A piece at a symmetry plane
 /// turns about the normal of that plane alone. Whatever is a piece at the start counts as one for good.
@@ -57,6 +60,13 @@ void check_prescribed(const State<Dim>& state, const StepWork<Dim>& work, const 
 
 // Task 0: velocity fields.
 
+/// Task 0: finds the velocity field of every pair of a particle and a node near a crack, a symmetry plane or a held face. The field follows
+/// from the set of cracks that the line between the two crosses (N03 Eq. 2, N13 sec. 1.1; docs/theory/space.md, layers). Also collects
+/// the normals of crossed facets per node and crack, and lays out tiles and nodes of the layers found.
+/// Throws RunError when a line crosses more than Signature::capacity cracks or a block needs more than 255 layers.
+template <int Dim, class Shape>
+void assign_velocity_fields(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
 /// In the first step, and when contact by volume is measured against the body as it was: nodal volumes of the uncut body at the
 /// start, sum V_p S (conventions 10).
 template <int Dim, class Shape>
@@ -91,6 +101,10 @@ void assemble_start_momenta(State<Dim>& state, StepWork<Dim>& work, const Model<
 template <int Dim, class Shape>
 void assemble_contact_sums(StepWork<Dim>& work, std::size_t block);
 
+/// After Task 1: the nodes with several fields, their groups, pairs, normals, gaps and areas, which hold for the whole step.
+template <int Dim, class Shape>
+void find_contacts(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
 /// Which nodes of deformable bodies meet the faces of rigid ones (docs/theory/contact.md, rigid faces). After find_contacts: what moves as one
 /// at the own nodes of a block, its parts of faces, and the particles before these.
 template <int Dim, class Shape>
@@ -119,6 +133,11 @@ void link_face_columns(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>&
 /// Impulses of all columns, and of the pairs of their nodes.
 template <int Dim>
 void meet_faces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, ContactTask task);
+
+/// Tasks 2 and 6 change momenta alone; Task 4 changes momenta and forces together and leaves fixed components alone. Nodes that meet_faces has
+/// solved together with rigid faces take what it found.
+template <int Dim>
+void adjust_contact(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block, ContactTask task);
 
 /// Gives the impulses to the nodes of a block: momentum, in Task 4 momentum and force; books energy and reactions.
 template <int Dim>
@@ -150,11 +169,19 @@ void update_stress_and_project_forces(State<Dim>& state, StepWork<Dim>& work, co
 template <int Dim, class Shape>
 void project_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
+/// Shares the forces on the surface points of cracks among the nodes that move them (spread_tractions in step/crack_tractions.hpp). Serial.
+template <int Dim, class Shape>
+void share_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
 // Tasks 3 and 4 on the own nodes of a block: forces, new momenta, accelerations (N03 Eqs. 28, 29).
 
 /// Sums the forces of tiles.
 template <int Dim, class Shape>
 void assemble_forces(StepWork<Dim>& work, std::size_t block);
+
+/// Adds the forces of tractions on cracks.
+template <int Dim>
+void add_tractions(StepWork<Dim>& work, std::size_t block);
 
 /// f += m g - damping p, in deformable fields.
 template <int Dim>
@@ -270,6 +297,10 @@ void account_loads_anew(StepWork<Dim>& work, std::size_t block);
 template <int Dim>
 void add_body_work(StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
+/// After Task 6: what the next step must know about every contact. Serial.
+template <int Dim>
+void remember_contacts(State<Dim>& state, StepWork<Dim>& work);
+
 /// Remembers for the next step which components prescribe_by_rigid() has prescribed. Serial.
 template <int Dim>
 void remember_rigid_conditions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
@@ -293,6 +324,19 @@ void update_stress_and_move_particles(State<Dim>& state, StepWork<Dim>& work, co
 /// All three: the stress update, v += dt sum S a, and positions.
 template <int Dim, class Shape>
 void update_stress_accelerate_and_move_particles(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
+
+// Task 8: cracks, and the tractions on them.
+
+/// Task 8, after particles have moved. Surface points go with their carriers (step/crack_carriers.hpp). Vertices of the plane move with the
+/// centre-of-mass velocity of all fields (N03 Eq. 32; conventions 39), v = sum S v_cm with linear S; where some of the nodes about have no
+/// mass, with the mean of their surface points. The plane stays between its surfaces. Vertices without any of these go with the nearest
+/// vertex of their crack that has one.
+template <int Dim>
+void move_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+/// Task 8, after the cracks have moved: tractions where they are now, what is stored and dissipated, and failures. Serial.
+template <int Dim>
+void update_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 // After Task 8: the end of the step.
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "crampon/run/observers/observer.hpp"
-#include "crampon/step/move_cracks.hpp"
+#include "crampon/step/crack_motion.hpp"
 
 namespace crampon {
 

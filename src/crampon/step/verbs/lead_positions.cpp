@@ -1,9 +1,9 @@
 #include "crampon/step/verbs.hpp"
 
 #include "crampon/core/parallel.hpp"
+#include "crampon/step/crack_motion.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/lay_out_blocks.hpp"
-#include "crampon/step/move_cracks.hpp"
 #include "crampon/step/rigid_motion.hpp"
 
 namespace crampon {

@@ -1,17 +1,32 @@
 #pragma once
+/// Where the points of cracks go: surface points with their carriers, and vertices of the plane.
+
+#include <optional>
 #include <vector>
 
-#include "crampon/step/model.hpp"
+#include "crampon/step/crack_carriers.hpp"
 #include "crampon/step/step_work.hpp"
 
 namespace crampon {
 
-/// Task 8, after particles have moved. Surface points go with their carriers (step/crack_carriers.hpp). Vertices of the plane move with the
-/// centre-of-mass velocity of all fields (N03 Eq. 32; conventions 39), v = sum S v_cm with linear S; where some of the nodes about have no
-/// mass, with the mean of their surface points. The plane stays between its surfaces. Vertices without any of these go with the nearest
-/// vertex of their crack that has one.
+/// How far the points of a crack move; none: nothing says it.
 template <int Dim>
-void move_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+struct CrackMotion {
+  std::vector<std::optional<Vec<Dim>>> upper, lower, plane;
+};
+
+/// That of the surfaces with their carriers, and of the plane with both of them.
+template <int Dim>
+CrackMotion<Dim> carried_motion(const State<Dim>& state, const StepWork<Dim>& work, const Crack<Dim>& crack, PositionTime time);
+
+/// Moves the points. Vertices of the plane of which nothing says how far they move go with the nearest one of which something does, and surface
+/// points with their vertex.
+template <int Dim>
+void move_points(CrackMotion<Dim> motion, Crack<Dim>& crack);
+
+/// The last vertex of a closed crack is its first.
+template <int Dim>
+void close_ends(Crack<Dim>& crack);
 
 /// After the positions of particles have been changed otherwise than by a step: surface points go with their carriers, and vertices of the plane
 /// with both of them.

@@ -1,4 +1,4 @@
-#include "crampon/step/find_contacts.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include "crampon/contact/find_pairs.hpp"
 #include "crampon/contact/groups.hpp"
@@ -155,30 +155,9 @@ void find_contacts(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mod
   NodeGatherer<Dim, Shape>(state, work, model, b).run();
 }
 
-template <int Dim>
-void remember_contacts(State<Dim>& state, StepWork<Dim>& work) {
-  state.contacts.entries.clear();
-  state.contacts.sides.clear();
-  for (const auto& scratch : work.scratch) {
-    for (const ContactNode<Dim>& node : scratch.contact.nodes) {
-      for (std::uint32_t q = node.first_pair; q < node.end_pair; ++q) {
-        const ContactPair<Dim>& pair = scratch.contact.pairs[q];
-        if (pair.state != ContactState::open) state.contacts.entries.push_back({{node.number, pair.name}, pair.state});
-      }
-    }
-    state.contacts.sides.insert(state.contacts.sides.end(), scratch.contact.sides.begin(), scratch.contact.sides.end());
-  }
-  for (const ContactColumn<Dim>& column : work.face_contacts.columns) {
-    if (column.pair.state != ContactState::open) state.contacts.entries.push_back({{column.name, column.pair.name}, column.pair.state});
-  }
-  state.contacts.sort();
-}
-
 #define CRAMPON_INSTANTIATE(DIM, SHAPE) \
   template void find_contacts<DIM, SHAPE>(State<DIM>&, StepWork<DIM>&, const Model<DIM>&, std::size_t);
 CRAMPON_FOR_ALL_SHAPES(CRAMPON_INSTANTIATE)
 #undef CRAMPON_INSTANTIATE
-template void remember_contacts<2>(State<2>&, StepWork<2>&);
-template void remember_contacts<3>(State<3>&, StepWork<3>&);
 
 }  // namespace crampon

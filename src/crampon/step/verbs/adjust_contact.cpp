@@ -1,4 +1,4 @@
-#include "crampon/step/adjust_contact.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "crampon/step/assign_velocity_fields.hpp"
+#include "crampon/step/verbs.hpp"
 
 #include <algorithm>
 #include <atomic>
