@@ -23,8 +23,10 @@ for option in "${options[@]}"; do  # an option already in the cache needs no new
   grep -q "^${name%%=*}:[A-Z]*=${name#*=}\$" "$folder/CMakeCache.txt" 2>/dev/null || configured=no
 done
 if [ $configured = no ]; then
-  # An unusable cache folder must not stop the build.
-  if ccache -s >/dev/null 2>&1; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+  # An unusable cache folder must not stop the build. With precompiled headers the cache needs to be told what it may overlook (ccache(1)).
+  if ccache -s >/dev/null 2>&1; then
+    options+=("-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_SLOPPINESS=pch_defines,time_macros;ccache")
+  fi
   if ! cmake --preset "$preset" "${options[@]}" >"$log" 2>&1; then
     cat "$log" >&2
     exit 4

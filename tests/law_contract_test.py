@@ -8,8 +8,10 @@ import concurrent.futures
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent / "src"
+FLAGS = ["-std=c++20", "-w", "-I", str(SOURCE)]
 
 # member: (its lines, words that the first error must hold when it is missing)
 MATERIAL = {
@@ -82,43 +84,51 @@ FAMILIES = (
 )
 
 
-def source(header, join, lines):
-    return """#include <array>
-#include "crampon/%s"
-namespace crampon {
+def source(join, lines):
+    return """namespace crampon {
 struct Law {
   %s
 };
 %s
 }
-""" % (header, "\n  ".join(lines), join)
+""" % ("\n  ".join(lines), join)
 
 
-def first_error(compiler, code):
-    done = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-w", "-I", str(SOURCE), "-x", "c++", "-"], input=code, text=True,
-                          capture_output=True)
+def precompile(compiler, folder, header):
+    """What all laws of a family include, compiled once. Returns the file to include first."""
+    first = pathlib.Path(folder) / header.replace("/", "_")
+    first.write_text('#include <array>\n#include "crampon/%s"\n' % header)
+    subprocess.run([compiler, *FLAGS, "-x", "c++-header", str(first), "-o", "%s.gch" % first], check=True)
+    return first
+
+
+def first_error(compiler, first, code):
+    done = subprocess.run([compiler, *FLAGS, "-fsyntax-only", "-include", str(first), "-x", "c++", "-"], input=code, text=True, capture_output=True)
     errors = [line for line in done.stderr.splitlines() if "error:" in line]
     return errors[0] if errors else ""
 
 
-def check(compiler, what, code, words):
-    error = first_error(compiler, code)
+def check(compiler, what, first, code, words):
+    error = first_error(compiler, first, code)
     good = words in error if words else not error
     return good, "%s: %s" % (what, error or "compiles")
 
 
 def main(compiler):
-    cases = []
-    for family, header, join, members, wrong in FAMILIES:
-        def add(what, lines, words):
-            cases.append(("%s law, %s" % (family, what), source(header, join, lines), words))
-        add("complete", [text for text, _ in members.values()], "")
-        for name, (_, words) in members.items():
-            add("without " + name, [text for other, (text, _) in members.items() if other != name], words)
-        for what, (name, text, words) in wrong.items():
-            add(what, [text if other == name else kept for other, (kept, _) in members.items()], words)
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        results = list(pool.map(lambda case: check(compiler, *case), cases))
+    with tempfile.TemporaryDirectory() as folder:
+        cases = []
+        for family, header, join, members, wrong in FAMILIES:
+            first = precompile(compiler, folder, header)
+
+            def add(what, lines, words):
+                cases.append(("%s law, %s" % (family, what), first, source(join, lines), words))
+            add("complete", [text for text, _ in members.values()], "")
+            for name, (_, words) in members.items():
+                add("without " + name, [text for other, (text, _) in members.items() if other != name], words)
+            for what, (name, text, words) in wrong.items():
+                add(what, [text if other == name else kept for other, (kept, _) in members.items()], words)
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            results = list(pool.map(lambda case: check(compiler, *case), cases))
     for good, text in results:
         if not good:
             print(text)

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,6 +47,22 @@ inline ShapeFunctionKind kind_of_word(const std::string& word) {
   });
   if (kind < 0) throw std::runtime_error("no shape function " + word);
   return ShapeFunctionKind{kind};
+}
+/// Which of a sweep's cases every run makes: of a sweep over places and shape functions each shape function at one place at least, and each place with
+/// one shape function at least; the others are for full runs (suites whose first name ends in Full).
+enum class Runs { every, full };
+template <class Case>
+std::vector<Case> cases_for(Runs runs, const std::vector<Case>& all) {
+  const std::size_t shapes = all_shape_functions().size(), places = (all.size() + shapes - 1) / shapes;
+  std::map<std::string, std::size_t> met;  // so far, by shape function
+  std::vector<Case> out;
+  for (const Case& c : all) {
+    const auto shape = static_cast<std::size_t>(kind_of_word(c.shape_functions));
+    const std::size_t place = met[c.shape_functions]++;
+    const bool in_every_run = place == shape % places || shape == place % shapes;
+    if (in_every_run == (runs == Runs::every)) out.push_back(c);
+  }
+  return out;
 }
 /// Do nodes see particles without size that are more than a cell away? So do B-splines, for bars that depend on it.
 inline bool sees_beyond_cell(const std::string& word) { return boxes_of(kind_of_word(word)).reach_of_sums() > 1; }

@@ -56,8 +56,12 @@ struct View {
 template <int Dim>
 View<Dim> see(const std::vector<Particle<Dim>>& particles, const Vec<Dim>& node, const Vec<Dim>& cell, Shape shape, double l) {
   View<Dim> view;
+  constexpr double furthest = 3;  // cells: no shape function reaches so far
   for (Particle<Dim> p : particles) {
     p.x -= node;
+    bool is_far = false;
+    for (int k = 0; k < Dim; ++k) is_far = is_far || std::fabs(p.x[k]) > furthest * cell[k];
+    if (is_far) continue;
     LabelledPoint<Dim> point;
     double S = 1, V = 1;
     Vec<Dim> G;

@@ -148,7 +148,8 @@ std::vector<Corner> corners(const std::vector<std::tuple<int, double, double>>& 
   }
   return all;
 }
-INSTANTIATE_TEST_SUITE_P(Points, ContactCorner, testing::ValuesIn(corners({{2, 0., 0.}, {2, 0.5, 0.5}})));
+INSTANTIATE_TEST_SUITE_P(Points, ContactCorner, testing::ValuesIn(cases_for(Runs::every, corners({{2, 0., 0.}, {2, 0.5, 0.5}}))));
+INSTANTIATE_TEST_SUITE_P(PointsFull, ContactCorner, testing::ValuesIn(cases_for(Runs::full, corners({{2, 0., 0.}, {2, 0.5, 0.5}}))));
 INSTANTIATE_TEST_SUITE_P(Points, ContactCornerFull,
                          testing::ValuesIn(corners({{2, 0.5, 0.}, {2, 0., -0.5}, {4, 0.25, 0.75}, {4, 0.75, 0.}, {4, 0.5, -0.25}})));
 

@@ -155,7 +155,8 @@ std::vector<ImpactCase> cases() {
   for (const Impact* impact : {&halves, &oblique, &crossing}) list.push_back({impact, 0, "linear", 0.3, "musl"});
   return list;
 }
-INSTANTIATE_TEST_SUITE_P(Impacts, ContactEnergy, testing::ValuesIn(cases()), name_of);
+INSTANTIATE_TEST_SUITE_P(Impacts, ContactEnergy, testing::ValuesIn(cases_for(Runs::every, cases())), name_of);
+INSTANTIATE_TEST_SUITE_P(ImpactsFull, ContactEnergy, testing::ValuesIn(cases_for(Runs::full, cases())), name_of);
 
 /// The same halves: after the collision each goes back with the speed of the other, for the halves are of one matter.
 TEST(ContactImpact, HalvesPartAgain) {

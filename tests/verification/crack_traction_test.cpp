@@ -89,9 +89,11 @@ TEST_P(CohesiveCrack, FailsAtItsStrengthAndTakesItsToughness) {
   EXPECT_LT(worst_closure, 0.02 * toughness * area);
   EXPECT_EQ(simulation->event_count(), 21u);  // every vertex
 }
-INSTANTIATE_TEST_SUITE_P(Modes, CohesiveCrack, testing::ValuesIn(for_all_shape_functions<Mode>([](const char* shape) {
-                           return std::vector<Mode>{{"vy", shape}, {"vx", shape}};
-                         })));
+std::vector<Mode> modes() {
+  return for_all_shape_functions<Mode>([](const char* shape) { return std::vector<Mode>{{"vy", shape}, {"vx", shape}}; });
+}
+INSTANTIATE_TEST_SUITE_P(Modes, CohesiveCrack, testing::ValuesIn(cases_for(Runs::every, modes())));
+INSTANTIATE_TEST_SUITE_P(ModesFull, CohesiveCrack, testing::ValuesIn(cases_for(Runs::full, modes())));
 
 }  // namespace
 }  // namespace crampon::test

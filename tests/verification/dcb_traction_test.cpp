@@ -78,7 +78,7 @@ End end_of(const Simulation& s) {
 
 /// Row 25: while the zone travels, J = 2 P theta/B is the toughness and P^2 delta = (2/3) (G B)^(3/2) (E I)^(1/2), whatever the length of crack.
 /// The zone is 21 mm long, eight cells.
-TEST(CohesiveBeam, TravelsAtItsToughness) {
+TEST(CohesiveBeamFull, TravelsAtItsToughness) {
   constexpr double toughness = 500;
   const auto simulation = make(beam(
       0.11, 9e-3, 0.2, 1e-3, 1, 300,

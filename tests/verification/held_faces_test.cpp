@@ -141,7 +141,8 @@ std::vector<Held> bars() {
   }
   return out;
 }
-INSTANTIATE_TEST_SUITE_P(Sweep, HeldBar, testing::ValuesIn(bars()));
+INSTANTIATE_TEST_SUITE_P(Sweep, HeldBar, testing::ValuesIn(cases_for(Runs::every, bars())));
+INSTANTIATE_TEST_SUITE_P(SweepFull, HeldBar, testing::ValuesIn(cases_for(Runs::full, bars())));
 
 class HeldFace : public testing::TestWithParam<Held> {};
 

@@ -156,7 +156,8 @@ std::vector<Case> cases() {
   }
   return out;
 }
-INSTANTIATE_TEST_SUITE_P(Sweep, LongCells, testing::ValuesIn(cases()));
+INSTANTIATE_TEST_SUITE_P(Sweep, LongCells, testing::ValuesIn(cases_for(Runs::every, cases())));
+INSTANTIATE_TEST_SUITE_P(SweepFull, LongCells, testing::ValuesIn(cases_for(Runs::full, cases())));
 
 }  // namespace
 }  // namespace crampon::test

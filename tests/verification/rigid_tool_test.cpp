@@ -158,7 +158,8 @@ std::string name_of(const testing::TestParamInfo<Dragged>& of) {
 
 class FlatTool : public testing::TestWithParam<Dragged> {};
 TEST_P(FlatTool, RubsWithItsFriction) { expect_friction(GetParam(), 2, *this); }
-INSTANTIATE_TEST_SUITE_P(Tools, FlatTool, testing::ValuesIn(dragged({&flat, &plate, &feet})), name_of);
+INSTANTIATE_TEST_SUITE_P(Tools, FlatTool, testing::ValuesIn(cases_for(Runs::every, dragged({&flat, &plate, &feet}))), name_of);
+INSTANTIATE_TEST_SUITE_P(ToolsFull, FlatTool, testing::ValuesIn(cases_for(Runs::full, dragged({&flat, &plate, &feet}))), name_of);
 INSTANTIATE_TEST_SUITE_P(ToolsOnParticles, FlatTool, testing::ValuesIn(dragged({&plate}, Made::of_particles)), name_of);
 
 class FlatToolFull : public testing::TestWithParam<Dragged> {};

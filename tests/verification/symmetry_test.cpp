@@ -128,7 +128,8 @@ std::vector<Reaction> reactions() {
   }
   return out;
 }
-INSTANTIATE_TEST_SUITE_P(Sweep, SymmetryReaction, testing::ValuesIn(reactions()));
+INSTANTIATE_TEST_SUITE_P(Sweep, SymmetryReaction, testing::ValuesIn(cases_for(Runs::every, reactions())));
+INSTANTIATE_TEST_SUITE_P(SweepFull, SymmetryReaction, testing::ValuesIn(cases_for(Runs::full, reactions())));
 
 // ---- half models
 
@@ -228,7 +229,8 @@ std::vector<Bodies> bodies() {
   }
   return out;
 }
-INSTANTIATE_TEST_SUITE_P(Sweep, HalfModel, testing::ValuesIn(bodies()));
+INSTANTIATE_TEST_SUITE_P(Sweep, HalfModel, testing::ValuesIn(cases_for(Runs::every, bodies())));
+INSTANTIATE_TEST_SUITE_P(SweepFull, HalfModel, testing::ValuesIn(cases_for(Runs::full, bodies())));
 
 struct Cracked {
   std::string shape_functions;
@@ -300,7 +302,8 @@ std::vector<Cracked> cracks() {
   }
   return out;
 }
-INSTANTIATE_TEST_SUITE_P(Sweep, HalfCrack, testing::ValuesIn(cracks()));
+INSTANTIATE_TEST_SUITE_P(Sweep, HalfCrack, testing::ValuesIn(cases_for(Runs::every, cracks())));
+INSTANTIATE_TEST_SUITE_P(SweepFull, HalfCrack, testing::ValuesIn(cases_for(Runs::full, cracks())));
 
 }  // namespace
 }  // namespace crampon::test
