@@ -83,8 +83,8 @@ inline void run(Simulation& simulation, const std::function<void(Simulation&)>& 
   }
 }
 
-inline const Field& field(const PointFrame& frame, const std::string& name) {
-  for (const Field& f : frame.fields) {
+inline const DataArray& field(const PointFrame& frame, const std::string& name) {
+  for (const DataArray& f : frame.fields) {
     if (f.name == name) return f;
   }
   throw std::runtime_error("no field " + name);

@@ -63,7 +63,7 @@ std::string bytes_text(double bytes) {
 std::string count_text(double count) {
   std::string digits = fmt::format("{:.0f}", count);
   for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > (digits[0] == '-' ? 1 : 0); place -= 3)
-    digits.insert(static_cast<std::size_t>(place), " ");
+    digits.insert(static_cast<std::size_t>(place), 1, ' ');
   return digits;
 }
 

@@ -95,7 +95,7 @@ thickness = "1 mm"
 }
 
 /// Values of the particles of the upper arm, in the order of their ids, which is the same in both models.
-std::vector<double> upper(const PatchCase& c, const PointFrame& start, const Field& f) {
+std::vector<double> upper(const PatchCase& c, const PointFrame& start, const DataArray& f) {
   std::vector<double> out;
   const auto n = static_cast<std::size_t>(f.components);
   for (std::size_t i = 0; i < start.positions.size() / 3; ++i) {

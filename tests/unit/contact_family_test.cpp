@@ -37,7 +37,7 @@ class EveryContactLaw : public testing::TestWithParam<Member> {
  protected:
   const ContactLawSpec& law = GetParam().law;
 };
-INSTANTIATE_TEST_SUITE_P(Laws, EveryContactLaw, testing::ValuesIn(members()), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Laws, EveryContactLaw, testing::ValuesIn(members()), [](const auto& of) { return of.param.name; });
 
 TEST_P(EveryContactLaw, ResistsSlipAndNeverTurnsIt) { check_limit_resists(*law); }
 TEST_P(EveryContactLaw, ReadsOnlyWhatItAsksFor) { check_reads_what_it_asks_for(*law); }
@@ -132,7 +132,7 @@ TEST(ContactFamily, StrictnessIsAnOrder) {
       if (a->ignores()) {
         EXPECT_EQ(rules.strictness(), b->strictness());
       }
-      if (a->joins()) {
+      if (a->bonds()) {
         EXPECT_EQ(rules.strictness(), a->strictness());
       }
       for (const ContactLawSpec& c : laws)

@@ -248,7 +248,7 @@ void check_impulses(const ContactLaw& law) {
 /// Joined faces move as one, whatever they did before.
 template <int Dim>
 void check_joined(const ContactLaw& law) {
-  if (!law.joins()) return;
+  if (!law.bonds()) return;
   Random random(9);
   for (int trial = 0; trial < 100; ++trial) {
     const Node<Dim> start = node_with<Dim>(random, law);

@@ -240,7 +240,7 @@ TEST_F(Output, TouchingBodiesHaveAnOutline) {
   }
 }
 
-RigidShape tool_of(const ShapePtr& shape, int body) {
+RigidShape tool_of(const RegionPtr& shape, int body) {
   RigidShape tool{"tool", body, shape};
   const Bounds3 box = shape->bounds();
   if (std::isfinite(box.low[0] + box.high[0])) tool.surface = box;

@@ -78,12 +78,12 @@ TEST(Fill, SymmetricShapesFillSymmetrically) {
   const FillGrid space{3, {{0, 0, 0}}, {{h, h, h}}, {{14, 14, 14}}};
   for (const FillMeasure measure : {FillMeasure::lattice, FillMeasure::matched}) {
     for (const double radius : {.5, .43, s * std::hypot(2.5, 6.5), s * 2.5}) {
-      const std::vector<std::pair<ShapePtr, const FillGrid*>> cases{
+      const std::vector<std::pair<RegionPtr, const FillGrid*>> cases{
           {make<Disk>(Vec<2>{{.7, .7}}, radius), &plane},
           {make<Ellipse>(Vec<2>{{.7, .7}}, Vec<2>{{radius, .6 * radius}}), &plane},
           {make<Ring>(Vec<2>{{.7, .7}}, .4 * radius, radius), &plane},
           {make<Difference>(make<Rectangle>(Vec<2>{{.7 - radius, .7 - radius}}, Vec<2>{{.7 + radius, .7 + radius}}),
-                            std::vector<ShapePtr>{make<Disk>(Vec<2>{{.7, .7}}, radius / 2)}),
+                            std::vector<RegionPtr>{make<Disk>(Vec<2>{{.7, .7}}, radius / 2)}),
            &plane},
           {make<Sphere>(Vec<3>{{.7, .7, .7}}, radius), &space}};
       for (const auto& [shape, grid] : cases) {
@@ -109,7 +109,7 @@ TEST(Fill, SymmetricShapesFillSymmetrically) {
 
 TEST(Fill, MatchedMeasureAndMiddleAreTheShapesAndStaySmooth) {
   // Ten cells of 2 x 2 (2 x 2 x 2) particles across, and more.
-  const auto check = [](const Shape& shape, const std::optional<Vec<3>>& middle, int dimension, int cells_per_unit) {
+  const auto check = [](const Region& shape, const std::optional<Vec<3>>& middle, int dimension, int cells_per_unit) {
     const FillGrid grid = grid_around_origin(dimension, cells_per_unit);
     const auto lattice = fill_shape(shape, grid, {2, 2, 2});
     const auto matched = fill_shape(shape, grid, {2, 2, 2}, FillMeasure::matched);
@@ -153,7 +153,7 @@ TEST(Fill, CoveredMeasureWithoutAClosedForm) {
   // A grid of 20 sub-cells across the unit: promised below 1e-4.
   const std::array<int, 3> two{2, 2, 2};
   const FillGrid plane = grid_around_origin(2, 10), space = grid_around_origin(3, 10);
-  const auto expect = [&](const Shape& shape, const FillGrid& grid, double exact, const std::string& name) {
+  const auto expect = [&](const Region& shape, const FillGrid& grid, double exact, const std::string& name) {
     EXPECT_NEAR(covered_measure(shape, grid, two), exact, 1e-4 * exact) << name;
     EXPECT_NEAR(total(fill_shape(shape, grid, two, FillMeasure::matched)), exact, 1e-4 * exact) << name;
   };
@@ -168,7 +168,7 @@ TEST(Fill, CoveredMeasureWithoutAClosedForm) {
   for (const auto& [name, shape] : solid_shapes())
     EXPECT_NEAR(covered_measure(*shape, space, two), *shape->measure(), 1e-4 * *shape->measure()) << name;
 
-  const ShapePtr plate = make<Rectangle>(Vec<2>{{-.52, -.57}}, Vec<2>{{.61, .63}}), hole = make<Disk>(Vec<2>{{.05, 0}}, .3);
+  const RegionPtr plate = make<Rectangle>(Vec<2>{{-.52, -.57}}, Vec<2>{{.61, .63}}), hole = make<Disk>(Vec<2>{{.05, 0}}, .3);
   expect(Difference(plate, {hole}), plane, 1.13 * 1.2 - pi * .09, "plate with a hole");
   // Two halves that share an edge off the lattice: the seam must not count as a boundary.
   expect(Union({make<Rectangle>(Vec<2>{{-.52, -.57}}, Vec<2>{{.0123, .63}}), make<Rectangle>(Vec<2>{{.0123, -.57}}, Vec<2>{{.61, .63}})}),

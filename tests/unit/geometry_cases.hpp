@@ -24,13 +24,13 @@ inline constexpr double pi = std::numbers::pi;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class T, class... Args>
-ShapePtr make(Args&&... args) {
+RegionPtr make(Args&&... args) {
   return std::make_shared<T>(std::forward<Args>(args)...);
 }
 
 struct Named {
   std::string name;
-  ShapePtr shape;
+  RegionPtr shape;
 };
 
 inline Corners loop(std::initializer_list<std::pair<double, double>> corners) {
@@ -44,7 +44,7 @@ inline const Corners notched = loop({{-.55, -.5}, {.5, -.45}, {.6, .5}, {.05, -.
 inline const Corners notched_hole = loop({{-.3, -.3}, {-.05, -.32}, {-.25, -.1}});
 
 inline std::vector<Named> plane_shapes() {
-  const ShapePtr polygon = make<Polygon>(notched, std::vector<Corners>{notched_hole});
+  const RegionPtr polygon = make<Polygon>(notched, std::vector<Corners>{notched_hole});
   return {{"rectangle", make<Rectangle>(Vec<2>{{-.52, -.31}}, Vec<2>{{.47, .44}})},
           {"disk", make<Disk>(Vec<2>{{.013, -.021}}, .513)},
           {"ellipse", make<Ellipse>(Vec<2>{{.01, .02}}, Vec<2>{{.55, .21}}, .6)},
@@ -59,7 +59,7 @@ inline std::vector<Named> plane_shapes() {
 }
 
 inline std::vector<Named> solid_shapes() {
-  const ShapePtr box = make<Box>(Vec<3>{{-.5, -.3, -.41}}, Vec<3>{{.45, .4, .33}});
+  const RegionPtr box = make<Box>(Vec<3>{{-.5, -.3, -.41}}, Vec<3>{{.45, .4, .33}});
   return {{"box", box},
           {"sphere", make<Sphere>(Vec<3>{{.01, -.02, .03}}, .52)},
           {"cylinder", make<Cylinder>(Vec<3>{{-.3, -.2, -.25}}, Vec<3>{{.35, .25, .2}}, .3)},
@@ -69,9 +69,9 @@ inline std::vector<Named> solid_shapes() {
 inline std::vector<Named> all_shapes() {
   std::vector<Named> all = plane_shapes();
   for (Named& s : solid_shapes()) all.push_back(s);
-  all.push_back({"union", make<Union>(std::vector<ShapePtr>{all[0].shape, all[1].shape})});
-  all.push_back({"intersection", make<Intersection>(std::vector<ShapePtr>{all[1].shape, all[2].shape})});
-  all.push_back({"difference", make<Difference>(all[0].shape, std::vector<ShapePtr>{all[2].shape})});
+  all.push_back({"union", make<Union>(std::vector<RegionPtr>{all[0].shape, all[1].shape})});
+  all.push_back({"intersection", make<Intersection>(std::vector<RegionPtr>{all[1].shape, all[2].shape})});
+  all.push_back({"difference", make<Difference>(all[0].shape, std::vector<RegionPtr>{all[2].shape})});
   all.push_back({"half-plane", make<HalfPlane>(Vec<3>{{.1, .2, 0}}, Vec<3>{{3, -4, 0}}, 2)});
   all.push_back({"half-space", make<HalfPlane>(Vec<3>{{.1, .2, .3}}, Vec<3>{{1, -2, 2}}, 3)});
   all.push_back({"point", make<Point>(Vec<3>{{.1, .2, .3}}, 3)});

@@ -44,7 +44,7 @@ TEST(Shapes, ClosedForms) {
   EXPECT_DOUBLE_EQ(*Sphere({}, 3).measure(), 36 * pi);
   EXPECT_DOUBLE_EQ(*Cylinder({}, {{0, 3, 4}}, 2).measure(), 20 * pi);
   EXPECT_DOUBLE_EQ(*Polygon(loop({{0, 0}, {4, 0}, {0, 3}}), {loop({{1, 1}, {1, .5}, {.5, .5}})}).measure(), 6 - .125);
-  const ShapePtr disk = make<Disk>(Vec<2>{}, 1.);
+  const RegionPtr disk = make<Disk>(Vec<2>{}, 1.);
   EXPECT_FALSE(Union({disk, disk}).measure());
   EXPECT_FALSE(Intersection({disk, disk}).measure());
   EXPECT_FALSE(Difference(disk, {disk}).measure());
@@ -245,7 +245,7 @@ TEST(PolygonTest, Faults) {
 RC_GTEST_PROP(PlacedProperty, MovingPointAndShapeTogetherChangesNothing, ()) {
   const auto number = [](int range) { return *rc::gen::inRange(-range, range + 1) * 0.01; };
   static const std::vector<Named> group = solid_shapes();
-  const ShapePtr shape = group[*rc::gen::inRange<std::size_t>(0, group.size())].shape;
+  const RegionPtr shape = group[*rc::gen::inRange<std::size_t>(0, group.size())].shape;
   const Vec<3> x{{number(80), number(80), number(80)}}, about{{number(50), number(50), number(50)}}, by{{number(200), number(200), 1}};
   const Vec<3> axis{{number(100), number(100), 1}};
   const double angle = number(700);

@@ -81,7 +81,7 @@ class Flow {
 /// Takes a point from its state to axial logarithmic strain `to` in one step, its sides free: the side strain is sought.
 /// before: the side strain so far.
 struct Bar {
-  explicit Bar(const J2Plasticity& law, StressState state) : law(law), state(state), points(made(law), state) {}
+  explicit Bar(const J2Plasticity& of, StressState in) : law(of), state(in), points(made(of), in) {}
   void stretch(double by) {
     double low = -std::fabs(by), high = std::fabs(by);
     const Points start = points;

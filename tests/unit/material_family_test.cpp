@@ -58,8 +58,8 @@ class EveryLaw : public testing::TestWithParam<Member> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Materials, EveryLaw, testing::ValuesIn(members()), [](const testing::TestParamInfo<Member>& info) {
-  return info.param.law->name() + "_" + state_names[static_cast<int>(info.param.state)];
+INSTANTIATE_TEST_SUITE_P(Materials, EveryLaw, testing::ValuesIn(members()), [](const testing::TestParamInfo<Member>& of) {
+  return of.param.law->name() + "_" + state_names[static_cast<int>(of.param.state)];
 });
 
 TEST_P(EveryLaw, StartsAtRest) {

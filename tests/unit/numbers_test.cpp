@@ -97,7 +97,7 @@ TEST_F(Output, FramesKeptInLessMemoryMakeTheSameFile) {
     }
     PointFrame plain = frame;
     for (Numbers* numbers : {&plain.positions, &plain.particle_size}) *numbers = numbers->doubles();
-    for (Field& field : plain.fields) field.values = field.values.doubles();
+    for (DataArray& field : plain.fields) field.values = field.values.doubles();
     write_vtp(folder / "frame.vtp", frame, precision);
     write_vtp(folder / "plain.vtp", plain, precision);
     EXPECT_TRUE(read_file(folder / "frame.vtp") == read_file(folder / "plain.vtp"));

@@ -38,9 +38,9 @@ std::vector<Named> single_shapes() {
 
 std::vector<Named> combinations() {
   const std::vector<Named> plane = plane_shapes(), solid = solid_shapes();
-  using Parts = std::vector<ShapePtr>;
-  const ShapePtr joined = make<Union>(Parts{plane[0].shape, plane[1].shape, plane[3].shape});
-  const ShapePtr holed = make<Difference>(plane[0].shape, Parts{plane[2].shape, make<Disk>(Vec<2>{{.3, .3}}, .1)});
+  using Parts = std::vector<RegionPtr>;
+  const RegionPtr joined = make<Union>(Parts{plane[0].shape, plane[1].shape, plane[3].shape});
+  const RegionPtr holed = make<Difference>(plane[0].shape, Parts{plane[2].shape, make<Disk>(Vec<2>{{.3, .3}}, .1)});
   return {{"union", joined},
           {"intersection", make<Intersection>(Parts{plane[1].shape, plane[2].shape, plane[0].shape})},
           {"difference", holed},
@@ -62,7 +62,7 @@ class RandomPoints {
 };
 
 // Whether the gradient of the distance jumps or turns sharply within a step of x along an axis, judged by distances alone.
-bool near_kink(const Shape& shape, const Vec<3>& x, double step) {
+bool near_kink(const Region& shape, const Vec<3>& x, double step) {
   for (std::size_t k = 0; k < 3; ++k) {
     Vec<3> e;
     e[k] = step;
@@ -71,7 +71,7 @@ bool near_kink(const Shape& shape, const Vec<3>& x, double step) {
   return false;
 }
 
-Vec<3> central_difference(const Shape& shape, const Vec<3>& x, double step) {
+Vec<3> central_difference(const Region& shape, const Vec<3>& x, double step) {
   Vec<3> gradient;
   for (std::size_t k = 0; k < 3; ++k) {
     Vec<3> e;
@@ -130,19 +130,19 @@ TEST(Outward, LeadsToTheNearestBoundaryPoint) {
 // Points on the boundary exactly, with their normal.
 struct OnBoundary {
   const char* name;
-  ShapePtr shape;
+  RegionPtr shape;
   Vec<3> x, normal;
 };
 
 TEST(Outward, IsTheNormalOnTheBoundary) {
-  using Parts = std::vector<ShapePtr>;
-  const ShapePtr rectangle = make<Rectangle>(Vec<2>{{0, 0}}, Vec<2>{{4, 2}});
-  const ShapePtr frame =
+  using Parts = std::vector<RegionPtr>;
+  const RegionPtr rectangle = make<Rectangle>(Vec<2>{{0, 0}}, Vec<2>{{4, 2}});
+  const RegionPtr frame =
       make<Polygon>(loop({{0, 0}, {6, 0}, {6, 6}, {3, 6}, {0, 6}}), std::vector<Corners>{loop({{2, 3}, {3, 2}, {4, 3}, {3, 4}})});
   const double q = std::sqrt(.5);
-  const ShapePtr step = make<Union>(Parts{rectangle, make<Rectangle>(Vec<2>{{4, 0}}, Vec<2>{{6, 1}})});
-  const ShapePtr plate = make<Difference>(make<Rectangle>(Vec<2>{{0, 0}}, Vec<2>{{20, 20}}), Parts{make<Disk>(Vec<2>{{10, 10}}, 5.)});
-  const ShapePtr punch = make<Intersection>(Parts{make<Disk>(Vec<2>{{0, 15}}, 15.), make<Rectangle>(Vec<2>{{-20, -1}}, Vec<2>{{20, 8}})});
+  const RegionPtr step = make<Union>(Parts{rectangle, make<Rectangle>(Vec<2>{{4, 0}}, Vec<2>{{6, 1}})});
+  const RegionPtr plate = make<Difference>(make<Rectangle>(Vec<2>{{0, 0}}, Vec<2>{{20, 20}}), Parts{make<Disk>(Vec<2>{{10, 10}}, 5.)});
+  const RegionPtr punch = make<Intersection>(Parts{make<Disk>(Vec<2>{{0, 15}}, 15.), make<Rectangle>(Vec<2>{{-20, -1}}, Vec<2>{{20, 8}})});
   const OnBoundary cases[] = {
       {"rectangle, below", rectangle, {{1, 0, 7}}, {{0, -1, 0}}},
       {"rectangle, above", rectangle, {{1, 2, 7}}, {{0, 1, 0}}},

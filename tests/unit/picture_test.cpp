@@ -235,7 +235,7 @@ TEST_F(Output, FringePictureIsDarkAndBrightByTheFormula) {
   const double half = 1e6 * 3.14159265358979324 / 0.0889;  // dark: cos = -1
   PointFrame f;
   f.cell = 1e-3;
-  Field stress{"stress", "Pa", 6, {}};
+  DataArray stress{"stress", "Pa", 6, {}};
   const std::vector<double> differences{0, half / 2, half, 2 * half};
   for (std::size_t i = 0; i < 4; ++i) {
     for (const double x : {static_cast<double>(i) * 1e-3, 0., 0.}) f.positions.push_back(x);

@@ -15,30 +15,30 @@ using namespace testing;
 
 // What a parser does with one alternative: sets keys by name, checks, builds.
 struct Built {
-  ShapePtr shape;
+  RegionPtr shape;
   std::vector<std::string> errors;
 };
 Built build(const std::string& kind, const std::map<std::string, EntryValue>& values,
-            const std::map<std::string, std::vector<ShapePtr>>& parts = {}) {
+            const std::map<std::string, std::vector<RegionPtr>>& parts = {}) {
   const Alternative* alternative = shapes().find(kind);
   if (!alternative) return {nullptr, {"no such kind"}};
   const auto object = alternative->record->create();
   for (const auto& [key, value] : values) alternative->record->find(key)->set(object.get(), value);
   for (const auto& [key, list] : parts)
-    for (const ShapePtr& part : list) alternative->record->find(key)->assign(object.get(), std::any(part));
+    for (const RegionPtr& part : list) alternative->record->find(key)->assign(object.get(), std::any(part));
   Diagnostics diagnostics;
   alternative->record->check(object.get(), diagnostics);
   Built built;
   for (const Diagnostic& d : diagnostics.list()) built.errors.push_back(d.text());
-  if (built.errors.empty()) built.shape = std::any_cast<ShapePtr>(alternative->build(object.get()));
+  if (built.errors.empty()) built.shape = std::any_cast<RegionPtr>(alternative->build(object.get()));
   return built;
 }
 using Numbers = std::vector<double>;
 using Points = std::vector<Numbers>;
 
 TEST(ShapeFamily, BuildsEveryKind) {
-  const ShapePtr disk = build("disk", {{"centre", Numbers{1, 2}}, {"radius", 3.}}).shape;
-  const ShapePtr rectangle = build("rectangle", {{"centre", Numbers{1, 2}}, {"size", Numbers{4, 2}}}).shape;
+  const RegionPtr disk = build("disk", {{"centre", Numbers{1, 2}}, {"radius", 3.}}).shape;
+  const RegionPtr rectangle = build("rectangle", {{"centre", Numbers{1, 2}}, {"size", Numbers{4, 2}}}).shape;
   std::map<std::string, Built> built;
   built["disk"].shape = disk;
   built["rectangle"].shape = rectangle;

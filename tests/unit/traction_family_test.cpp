@@ -34,7 +34,7 @@ class EveryTractionLaw : public testing::TestWithParam<Member> {
  protected:
   const TractionLaw& law = *GetParam().law;
 };
-INSTANTIATE_TEST_SUITE_P(Laws, EveryTractionLaw, testing::ValuesIn(members()), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Laws, EveryTractionLaw, testing::ValuesIn(members()), [](const auto& of) { return of.param.name; });
 
 TEST_P(EveryTractionLaw, StartsWhole) { check_starts_whole(law); }
 TEST_P(EveryTractionLaw, Resists) { check_resists(law); }

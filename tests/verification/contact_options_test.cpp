@@ -106,7 +106,7 @@ void PrintTo(const Rest& r, std::ostream* out) { *out << r.contact << ", " << r.
 /// Mean height of a body, m.
 double height_of(Simulation& simulation, double body) {
   const PointFrame frame = simulation.particles({"velocity"});
-  const Field& of = field(frame, "body");
+  const DataArray& of = field(frame, "body");
   double sum = 0, count = 0;
   for (std::size_t p = 0; p < of.values.size(); ++p) {
     if (of.values[p] == body) sum += frame.positions[3 * p + 1], ++count;

@@ -115,7 +115,7 @@ TEST(BridgedBeam, IsABeamOnSprings) {
   const double release = start * start / (depth * stiffness) * std::pow(1 + 1 / lambda_a, 2);                         // 4518 1/(N m)
   const CrackFrame crack = simulation->cracks();
   double T = 0;
-  for (const Field& f : crack.fields) {
+  for (const DataArray& f : crack.fields) {
     if (f.name == "traction_normal") T = largest(f.values);
   }
   RecordProperty("force_N", fmt::format("{:.4f}", end.force));

@@ -67,7 +67,7 @@ struct Mean {
 
 /// The particles less than h below the undeformed face, from the disk's rim up or from the flat down, in strips of width h along it.
 std::map<int, Mean> row_at_the_face(const PointFrame& frame, int body, double h, bool of_disk = true) {
-  const Field &stress = field(frame, "stress"), &volume = field(frame, "volume"), &moved = field(frame, "displacement");
+  const DataArray &stress = field(frame, "stress"), &volume = field(frame, "volume"), &moved = field(frame, "displacement");
   const auto components = static_cast<std::size_t>(stress.components);
   std::map<int, Mean> row;
   for (std::size_t p = 0; p < volume.values.size(); ++p) {

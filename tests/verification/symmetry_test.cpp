@@ -148,7 +148,7 @@ double apart(const std::string& whole_text, const std::string& half_text) {
   run(*whole);
   run(*half);
   const PointFrame whole_end = places(*whole), half_end = places(*half);
-  const Field &v = field(whole_end, "velocity"), &w = field(half_end, "velocity");
+  const DataArray &v = field(whole_end, "velocity"), &w = field(half_end, "velocity");
   double worst = 0, moved = 0;
   for (std::size_t p = 0; p < half_start.positions.size() / 3; ++p) {
     const auto at = of_whole.find(key(half_start, p));

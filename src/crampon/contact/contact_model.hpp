@@ -58,8 +58,8 @@ struct ContactModel : ContactChoices {
   const Vec<Dim>& normal_between(int a, int b) const { return field_normals[at(a, b)]; }
   /// Images of cracks in symmetry planes, which have the same laws, follow the cracks (CrackView::seen).
   const ContactLaw& law_across(CrackId crack) const { return *crack_laws[crack % crack_laws.size()]; }
-  /// Are fields on both sides one group? One after another, bonded pairs are pairs like others (N13, conventions 14).
-  bool joins(const ContactLaw& law) const { return law.joins() && pairs == ContactPairs::joint; }
+  /// Do fields on both sides of a crack or of a law move as one group? One after another, bonded pairs are pairs like others (N13, conventions 14).
+  bool makes_one_group(const ContactLaw& law) const { return law.bonds() && pairs == ContactPairs::joint; }
 
   template <class F>
   bool any_law(F asks) const {

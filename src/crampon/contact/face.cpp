@@ -37,9 +37,9 @@ void find_faces(const NodeFacts<Dim>& node, const ContactModel<Dim>& contact, st
     part.field = part.lowest_field = at.field;
     part.known_as = field.bonded_to;
     Face<Dim>& face = faces[static_cast<std::size_t>(at.group)];
-    face.cracks = without_joined(at.cracks, contact);
+    face.cracks = without_bonded(at.cracks, contact);
     face.rigid = field.rigid;
-    face.whole = field.ignores_cracks;
+    face.ignores_cracks = field.ignores_cracks;
     face.add(part);
   }
   for (Face<Dim>& face : faces) {

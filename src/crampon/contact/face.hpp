@@ -25,7 +25,7 @@ struct Face {
   std::uint16_t known_as = 0xffff;      ///< field by which contact remembers the face: it stays when parts of a bonded group come and go
   double field_volume = -1;
   bool rigid = false;
-  bool whole = false;  ///< meets faces on all sides of cracks
+  bool ignores_cracks = false;  ///< meets faces on all sides of cracks
 
   void add(const Face& b) {
     groups |= b.groups;

@@ -27,7 +27,7 @@ const std::vector<ContactPair<Dim>>& PairFinder<Dim>::find(NodeFacts<Dim>& node)
   for (const Face<Dim>& face : faces_) place_.volume += face.volume;
   pair_materials();
   pair_sides();
-  pair_whole();
+  pair_ignoring_cracks();
   return pairs_;
 }
 
@@ -47,15 +47,15 @@ void PairFinder<Dim>::complete_cloud(NodeFacts<Dim>& node) const {
 template <int Dim>
 void PairFinder<Dim>::pair_materials() {
   for (std::size_t a = 0; a < faces_.size(); ++a) {
-    if (faces_[a].whole) continue;
+    if (faces_[a].ignores_cracks) continue;
     int others = 0;
-    for (const Face<Dim>& f : faces_) others += !f.whole && f.cracks == faces_[a].cracks;
+    for (const Face<Dim>& f : faces_) others += !f.ignores_cracks && f.cracks == faces_[a].cracks;
     if (others > 2 && contact_.several_materials == SeveralMaterials::virtual_material) {
       pair_with_virtual(a);
       continue;
     }
     for (std::size_t b = a + 1; b < faces_.size(); ++b) {
-      if (!faces_[b].whole && faces_[b].cracks == faces_[a].cracks) pair_faces(faces_[a], faces_[b]);
+      if (!faces_[b].ignores_cracks && faces_[b].cracks == faces_[a].cracks) pair_faces(faces_[a], faces_[b]);
     }
   }
   // N13's virtual materials first, by crack field; solve_contact relies on it.
@@ -71,7 +71,7 @@ void PairFinder<Dim>::pair_with_virtual(std::size_t a) {
   rest.cracks = faces_[a].cracks;
   const Face<Dim>* most = nullptr;
   for (std::size_t b = 0; b < faces_.size(); ++b) {
-    if (b == a || faces_[b].whole || faces_[b].cracks != rest.cracks) continue;
+    if (b == a || faces_[b].ignores_cracks || faces_[b].cracks != rest.cracks) continue;
     rest.add(faces_[b]);
     if (!most || faces_[b].volume > most->volume) most = &faces_[b];
   }
@@ -80,12 +80,12 @@ void PairFinder<Dim>::pair_with_virtual(std::size_t a) {
 
 /// Bodies that no crack parts, with all others whatever cracks part those; rigid ones last (conventions 36).
 template <int Dim>
-void PairFinder<Dim>::pair_whole() {
+void PairFinder<Dim>::pair_ignoring_cracks() {
   for (const bool rigid : {false, true}) {
     for (std::size_t w = 0; w < faces_.size(); ++w) {
-      if (!faces_[w].whole || faces_[w].rigid != rigid) continue;
+      if (!faces_[w].ignores_cracks || faces_[w].rigid != rigid) continue;
       for (std::size_t f = 0; f < faces_.size(); ++f) {
-        const bool met_before = faces_[f].whole && f >= w;
+        const bool met_before = faces_[f].ignores_cracks && f >= w;
         if (!faces_[f].rigid && (rigid || !met_before)) pair_faces(faces_[f], faces_[w]);
       }
     }
@@ -99,17 +99,17 @@ void PairFinder<Dim>::pair_faces(const Face<Dim>& a, const Face<Dim>& b, const F
   ContactPair<Dim> pair;
   pair.law = &contact_.law_between(a.field, other.field);
   if (pair.law->ignores()) return;
-  const bool bonded = pair.law->joins();
+  const bool bonded = pair.law->bonds();
   if (!bonded && !b.rigid && std::fmin(a.m, b.m) < contact_.mass_screen * (a.m + b.m)) return;  // conventions 37
   pair.a = a.groups;
   pair.b = b.groups;
   pair.name.field_a = a.known_as;
   pair.name.field_b = facing ? ContactName::all_others : b.known_as;
   pair.name.others = a.cracks;
-  if (!view_.see_material(place_, a, b, other, pair)) return;
+  if (!face_to_face_.see_material(place_, a, b, other, pair)) return;
   const std::size_t first = pairs_.size();
   pairs_.push_back(pair);
-  if (!facing) view_.part_corner(place_, a, b, pairs_);
+  if (!facing) face_to_face_.part_corner(place_, a, b, pairs_);
   for (std::size_t q = first; q < pairs_.size(); ++q) pairs_[q].previous = previous_state(pairs_[q]);
 }
 
@@ -120,7 +120,7 @@ void PairFinder<Dim>::pair_sides() {
   const std::size_t begin = pairs_.size();
   sides_.clear();
   for (const Face<Dim>& f : faces_) {
-    if (f.whole) continue;
+    if (f.ignores_cracks) continue;
     auto at = std::find_if(sides_.begin(), sides_.end(), [&](const Face<Dim>& s) { return s.cracks == f.cracks; });
     if (at == sides_.end()) {
       sides_.push_back(f);
@@ -157,12 +157,12 @@ void PairFinder<Dim>::pair_across(const Face<Dim>& g, const Face<Dim>& h) {
   ContactPair<Dim> pair;
   pair.law = between->law;
   const double fraction = a.m / (a.m + b.m);
-  const bool bonded = pair.law->joins();
+  const bool bonded = pair.law->bonds();
   if (!bonded && std::fmin(fraction, 1 - fraction) < contact_.mass_screen) return;  // conventions 37
   pair.a = a.groups;
   pair.b = b.groups;
   pair.name = between->name;
-  if (!view_.see_across(place_, between->as_one, a, b, pair)) return;
+  if (!face_to_face_.see_across(place_, between->as_one, a, b, pair)) return;
   pair.previous = previous_state(pair);
   pairs_.push_back(pair);
 }
@@ -173,7 +173,7 @@ ContactState PairFinder<Dim>::previous_state(const ContactPair<Dim>& pair) const
   if (first_step_ && pair.law->adheres() && pair.gap <= 0.1 * grid_.smallest_cell()) return ContactState::stick;  // glued from the start
   ContactKey key{node_->number, pair.name};
   for (const auto& k : node_->cracks) {
-    if (k.crack == pair.name.crack || pair.name.rest.contains(k.crack) || contact_.joins(contact_.law_across(k.crack))) continue;
+    if (k.crack == pair.name.crack || pair.name.rest.contains(k.crack) || contact_.makes_one_group(contact_.law_across(k.crack))) continue;
     const double before = memory_.side(node_->number, k.crack);
     if (before * k.side < 0) key.name.others.toggle(k.crack);
   }

@@ -32,7 +32,7 @@ class PairFinder {
   /// \param first_step  pairs whose law adheres, and whose faces touch, are glued from the start
   /// All arguments must outlive it.
   PairFinder(const ContactModel<Dim>& contact, const Grid<Dim>& grid, const ContactMemory& memory, bool first_step)
-      : contact_(contact), grid_(grid), memory_(memory), first_step_(first_step), view_(contact, grid, memory) {}
+      : contact_(contact), grid_(grid), memory_(memory), first_step_(first_step), face_to_face_(contact, grid, memory) {}
 
   /// The pairs of materials, then those across cracks, then those with bodies that no crack parts; valid until the next call. Completes the
   /// cloud of the node: gives its points their groups, and adds their images.
@@ -42,7 +42,7 @@ class PairFinder {
   void complete_cloud(NodeFacts<Dim>& node) const;
   void pair_materials();
   void pair_with_virtual(std::size_t a);
-  void pair_whole();
+  void pair_ignoring_cracks();
   void pair_faces(const Face<Dim>& a, const Face<Dim>& b, const Face<Dim>* facing = nullptr);
   void pair_sides();
   bool face_each_other(std::size_t g, std::size_t h) const;
@@ -53,7 +53,7 @@ class PairFinder {
   const Grid<Dim>& grid_;
   const ContactMemory& memory_;
   bool first_step_;
-  FaceToFace<Dim> view_;
+  FaceToFace<Dim> face_to_face_;
   // Of the node at hand.
   const NodeFacts<Dim>* node_ = nullptr;
   MeetingPlace<Dim> place_;

@@ -17,12 +17,12 @@ int find_groups(const std::vector<Layer>& layers, const ContactModel<Dim>& conta
   std::vector<Signature> reduced;
   for (std::size_t i = 0; i < present.size(); ++i) {
     chain[i] = static_cast<int>(i);
-    reduced.push_back(without_joined(layer(i).cracks, contact));
+    reduced.push_back(without_bonded(layer(i).cracks, contact));
     for (std::size_t j = 0; j < i; ++j) {
       const std::uint16_t a = layer(j).field, b = layer(i).field;
       if (reduced[i] != reduced[j] || chain[i] == chain[j]) continue;
       const bool bonded =
-          contact.joins(contact.law_between(a, b)) && !contact.fields[a].ignores_cracks && !contact.fields[b].ignores_cracks;
+          contact.makes_one_group(contact.law_between(a, b)) && !contact.fields[a].ignores_cracks && !contact.fields[b].ignores_cracks;
       if (a != b && !bonded) continue;
       const int low = std::min(chain[i], chain[j]), high = std::max(chain[i], chain[j]);
       for (std::size_t k = 0; k <= i; ++k) {

@@ -9,10 +9,10 @@ namespace crampon {
 
 /// A signature without the cracks that join: fields of one material that agree in it move as one (conventions 13, 14).
 template <int Dim>
-Signature without_joined(const Signature& s, const ContactModel<Dim>& contact) {
+Signature without_bonded(const Signature& s, const ContactModel<Dim>& contact) {
   Signature out;
   for (const CrackId c : s) {
-    if (!contact.joins(contact.law_across(c))) out.append(c);
+    if (!contact.makes_one_group(contact.law_across(c))) out.append(c);
   }
   return out;
 }

@@ -22,7 +22,7 @@ class ContactLaw {
 
   Meeting meeting() const { return facts_.meeting; }
   bool ignores() const { return facts_.meeting == Meeting::never; }
-  bool joins() const { return facts_.meeting == Meeting::joined; }
+  bool bonds() const { return facts_.meeting == Meeting::joined; }
   bool has_springs() const { return facts_.meeting == Meeting::springs; }
   /// Do faces that have met bear tension?
   bool adheres() const { return facts_.adheres; }

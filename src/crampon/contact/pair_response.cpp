@@ -129,7 +129,7 @@ Response<Dim> consistent_response(const ContactRules& rules, ContactPair<Dim>& p
 
 template <int Dim>
 Response<Dim> respond(const ContactRules& rules, ContactPair<Dim>& pair, double m, const Vec<Dim>& w) {
-  if (pair.law->joins()) return bonded_response(pair, m, w);
+  if (pair.law->bonds()) return bonded_response(pair, m, w);
   if (rules.task == ContactTask::term) return term_response(pair, m, w);
   if (holds_as_interface(pair)) return interface_response(rules, pair, m, w);
   return rules.literal ? literal_response(rules, pair, m, w) : consistent_response(rules, pair, m, w);

@@ -1,12 +1,12 @@
 #pragma once
 /// Axis-aligned rectangle and box.
 
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 
 namespace crampon {
 
 /// Points with low <= x <= high in x and y; an edge when low == high on an axis.
-struct Rectangle final : Shape {
+struct Rectangle final : Region {
   Vec<2> low, high;  ///< m
   Rectangle(const Vec<2>& low_corner, const Vec<2>& high_corner) : low(low_corner), high(high_corner) {}
   double distance(const Vec<3>& x) const override;
@@ -16,7 +16,7 @@ struct Rectangle final : Shape {
 };
 
 /// Points with low <= x <= high in x, y and z; a face, edge or point when low == high on an axis.
-struct Box final : Shape {
+struct Box final : Region {
   Vec<3> low, high;  ///< m
   Box(const Vec<3>& low_corner, const Vec<3>& high_corner) : low(low_corner), high(high_corner) {}
   double distance(const Vec<3>& x) const override;

@@ -3,14 +3,14 @@
 
 #include <vector>
 
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 
 namespace crampon {
 
 /// Points in any of the parts (at least one part).
-class Union final : public Shape {
+class Union final : public Region {
  public:
-  explicit Union(std::vector<ShapePtr> parts);
+  explicit Union(std::vector<RegionPtr> parts);
   double distance(const Vec<3>& x) const override;
   Vec<3> outward(const Vec<3>& x) const override;
   bool contains(const Vec<3>& x, double slack = 0) const override;
@@ -19,13 +19,13 @@ class Union final : public Shape {
   int dimension() const override;
 
  private:
-  std::vector<ShapePtr> parts_;
+  std::vector<RegionPtr> parts_;
 };
 
 /// Points in all of the parts (at least one part).
-class Intersection final : public Shape {
+class Intersection final : public Region {
  public:
-  explicit Intersection(std::vector<ShapePtr> parts);
+  explicit Intersection(std::vector<RegionPtr> parts);
   double distance(const Vec<3>& x) const override;
   Vec<3> outward(const Vec<3>& x) const override;
   bool contains(const Vec<3>& x, double slack = 0) const override;
@@ -34,21 +34,21 @@ class Intersection final : public Shape {
   int dimension() const override;
 
  private:
-  std::vector<ShapePtr> parts_;
+  std::vector<RegionPtr> parts_;
 };
 
 /// Points of a shape that are not strictly inside any of the shapes taken away.
-class Difference final : public Shape {
+class Difference final : public Region {
  public:
-  Difference(ShapePtr whole, std::vector<ShapePtr> taken_away);
+  Difference(RegionPtr whole, std::vector<RegionPtr> taken_away);
   double distance(const Vec<3>& x) const override;
   Vec<3> outward(const Vec<3>& x) const override;
   Bounds3 bounds() const override { return whole_->bounds(); }
   int dimension() const override;
 
  private:
-  ShapePtr whole_;
-  std::vector<ShapePtr> taken_away_;
+  RegionPtr whole_;
+  std::vector<RegionPtr> taken_away_;
 };
 
 }  // namespace crampon

@@ -29,7 +29,7 @@ struct Part {
 // The shape seen on the sub-lattice: the range of cells that its bounds reach, and how much of each the shape covers.
 class Lattice {
  public:
-  Lattice(const Shape& shape, const FillGrid& grid, const Index& per_cell)
+  Lattice(const Region& shape, const FillGrid& grid, const Index& per_cell)
       : shape_(shape), dimension_(grid.dimension), origin_(grid.origin) {
     const Bounds3 box = shape.bounds();
     double smallest = std::numeric_limits<double>::infinity();
@@ -111,7 +111,7 @@ class Lattice {
     classify(upper_start, to);
   }
 
-  const Shape& shape_;
+  const Region& shape_;
   int dimension_, depth_;
   Vec<3> origin_, cell_, sub_;
   Index low_, count_, per_cell_;
@@ -203,7 +203,7 @@ double covered_measure_of(const Lattice& lattice) {
 }
 
 // Measures and places of particles follow the boundary: each becomes the middle of what it stands for.
-void follow_boundary(const Shape& shape, const Lattice& lattice, const ParticleFinder& finder, std::vector<FilledParticle>& particles) {
+void follow_boundary(const Region& shape, const Lattice& lattice, const ParticleFinder& finder, std::vector<FilledParticle>& particles) {
   std::vector<Part> weights(particles.size(), Part{whole_weight, {}});
   std::int64_t whole = 0, parts = 0;
   for (std::size_t k = 0; k < lattice.cells(); ++k)
@@ -244,7 +244,7 @@ void follow_boundary(const Shape& shape, const Lattice& lattice, const ParticleF
 }
 }  // namespace
 
-std::vector<FilledParticle> fill_shape(const Shape& shape, const FillGrid& grid, const std::array<int, 3>& per_cell, FillMeasure measure) {
+std::vector<FilledParticle> fill_shape(const Region& shape, const FillGrid& grid, const std::array<int, 3>& per_cell, FillMeasure measure) {
   const Lattice lattice(shape, grid, per_cell);
   const double sub_measure = lattice.sub_measure();
   std::vector<FilledParticle> particles;
@@ -266,7 +266,7 @@ std::vector<FilledParticle> fill_shape(const Shape& shape, const FillGrid& grid,
   return particles;
 }
 
-double covered_measure(const Shape& shape, const FillGrid& grid, const std::array<int, 3>& per_cell) {
+double covered_measure(const Region& shape, const FillGrid& grid, const std::array<int, 3>& per_cell) {
   return covered_measure_of(Lattice(shape, grid, per_cell));
 }
 

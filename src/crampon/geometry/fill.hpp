@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 
 namespace crampon {
 
@@ -38,12 +38,12 @@ enum class FillMeasure {
 /// remains differs from 1 by the error of the covered parts alone. Counted in whole fractions of a sub-cell: mirror images get
 /// equal measures to the last bit. The sum is the shape's measure() to round-off where that is known, of the grid's dimension, and
 /// the shape lies in the grid; otherwise covered_measure(). A particle stays in its sub-cell.
-std::vector<FilledParticle> fill_shape(const Shape& shape, const FillGrid& grid, const std::array<int, 3>& per_cell,
+std::vector<FilledParticle> fill_shape(const Region& shape, const FillGrid& grid, const std::array<int, 3>& per_cell,
                                        FillMeasure measure = FillMeasure::lattice);
 
 /// Measure (m2 or m3) of the part of the shape inside the grid, from the covered parts of the sub-cells on its boundary. Boundaries
 /// are cut by planes in boxes halved until they are flat, down to 1/16 (3D: 1/8) of a sub-cell. Relative error below 1e-4 for bodies
 /// of 20 sub-cells or more across (curved ones: below 1e-5).
-double covered_measure(const Shape& shape, const FillGrid& grid, const std::array<int, 3>& per_cell);
+double covered_measure(const Region& shape, const FillGrid& grid, const std::array<int, 3>& per_cell);
 
 }  // namespace crampon

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t most_diagnostics = 50;  // a wrong separator makes every line wrong; nobody reads a million messages
 
-struct Field {
+struct CsvCell {
   std::string_view text;  // without surrounding blanks
   int column;             // of its first character, from 1
 };
@@ -36,8 +36,8 @@ constexpr int volume_index = 3;
 
 bool blank(char c) { return c == ' ' || c == '\t'; }
 
-std::vector<Field> split(std::string_view line) {
-  std::vector<Field> fields;
+std::vector<CsvCell> split(std::string_view line) {
+  std::vector<CsvCell> fields;
   std::size_t start = 0;
   while (true) {
     const std::size_t end = std::min(line.find(',', start), line.size());
@@ -111,7 +111,7 @@ class Reader {
 
   void read_header(std::string_view line) {
     std::array<bool, quantities.size()> seen{};
-    for (const Field& field : split(line)) {
+    for (const CsvCell& field : split(line)) {
       columns_.push_back(read_column(field));
       const int q = columns_.back().quantity;
       if (q < 0) continue;
@@ -131,7 +131,7 @@ class Reader {
     out_.has_velocity = any_velocity;
   }
 
-  Column read_column(const Field& field) {
+  Column read_column(const CsvCell& field) {
     std::string_view name = field.text;
     std::optional<std::string> unit;
     if (const std::size_t open = name.find('['); open != std::string_view::npos) {
@@ -176,7 +176,7 @@ class Reader {
     out_.particles.push_back({{{values[0], values[1], values[2]}}, values[3], {{values[4], values[5], values[6]}}, line_});
   }
 
-  double read_number(const Field& field, const Column& column) {
+  double read_number(const CsvCell& field, const Column& column) {
     const char* name = quantities[column.quantity].name;
     std::string_view digits = field.text;
     if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
@@ -214,7 +214,7 @@ class Reader {
   std::string file_;
   int dimension_, line_ = 0;
   std::vector<Column> columns_;
-  std::vector<Field> fields_;
+  std::vector<CsvCell> fields_;
   ListedParticles out_;
   std::vector<Diagnostic> diagnostics_;
   std::size_t suppressed_ = 0;

@@ -11,7 +11,7 @@ namespace {
 double scaled(double factor, double length) { return factor == 0 ? 0 : factor * length; }
 }  // namespace
 
-Rotated::Rotated(ShapePtr shape, double angle, const Vec<3>& about, const Vec<3>& axis)
+Rotated::Rotated(RegionPtr shape, double angle, const Vec<3>& about, const Vec<3>& axis)
     : shape_(std::move(shape)), about_(about), in_plane_(axis[0] == 0 && axis[1] == 0) {
   const Vec<3> a = normalized(axis);
   const auto [c, s] = direction_of(angle).c;
@@ -55,7 +55,7 @@ std::optional<double> Rotated::measure() const {
 
 int Rotated::dimension() const { return in_plane_ ? shape_->dimension() : 3; }
 
-Translated::Translated(ShapePtr shape, const Vec<3>& by) : shape_(std::move(shape)), by_(by) {}
+Translated::Translated(RegionPtr shape, const Vec<3>& by) : shape_(std::move(shape)), by_(by) {}
 
 Bounds3 Translated::bounds() const {
   const Bounds3 inner = shape_->bounds();

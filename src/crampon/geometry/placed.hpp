@@ -3,15 +3,15 @@
 
 #include <array>
 
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 
 namespace crampon {
 
 /// A shape turned about an axis through a point (2D: about the point, counter-clockwise). Quarter turns about coordinate axes are exact.
-class Rotated final : public Shape {
+class Rotated final : public Region {
  public:
   /// angle in rad, right-handed about `axis` (any length but zero); about: point on the axis, m.
-  Rotated(ShapePtr shape, double angle, const Vec<3>& about, const Vec<3>& axis = {{0, 0, 1}});
+  Rotated(RegionPtr shape, double angle, const Vec<3>& about, const Vec<3>& axis = {{0, 0, 1}});
   double distance(const Vec<3>& x) const override { return shape_->distance(turn_back(x)); }
   Vec<3> outward(const Vec<3>& x) const override;
   bool contains(const Vec<3>& x, double slack = 0) const override { return shape_->contains(turn_back(x), slack); }
@@ -21,17 +21,17 @@ class Rotated final : public Shape {
 
  private:
   Vec<3> turn_back(const Vec<3>& x) const;
-  ShapePtr shape_;
+  RegionPtr shape_;
   Vec<3> about_;
   std::array<Vec<3>, 3> columns_;  // of the rotation matrix
   bool in_plane_;                  // about the z axis
 };
 
 /// A shape shifted by a vector.
-class Translated final : public Shape {
+class Translated final : public Region {
  public:
   /// by: m
-  Translated(ShapePtr shape, const Vec<3>& by);
+  Translated(RegionPtr shape, const Vec<3>& by);
   double distance(const Vec<3>& x) const override { return shape_->distance(x - by_); }
   Vec<3> outward(const Vec<3>& x) const override { return shape_->outward(x - by_); }
   bool contains(const Vec<3>& x, double slack = 0) const override { return shape_->contains(x - by_, slack); }
@@ -40,15 +40,15 @@ class Translated final : public Shape {
   int dimension() const override { return shape_->dimension(); }
 
  private:
-  ShapePtr shape_;
+  RegionPtr shape_;
   Vec<3> by_;
 };
 
 /// A shape in the mirror across a coordinate axis.
-class Mirrored final : public Shape {
+class Mirrored final : public Region {
  public:
   /// axis: 0, 1 or 2; at: the mirror's coordinate along it, m
-  Mirrored(ShapePtr shape, std::size_t axis, double at) : shape_(std::move(shape)), axis_(axis), at_(at) {}
+  Mirrored(RegionPtr shape, std::size_t axis, double at) : shape_(std::move(shape)), axis_(axis), at_(at) {}
   double distance(const Vec<3>& x) const override { return shape_->distance(image(x)); }
   Vec<3> outward(const Vec<3>& x) const override;
   bool contains(const Vec<3>& x, double slack = 0) const override { return shape_->contains(image(x), slack); }
@@ -61,7 +61,7 @@ class Mirrored final : public Shape {
     x[axis_] = 2 * at_ - x[axis_];
     return x;
   }
-  ShapePtr shape_;
+  RegionPtr shape_;
   std::size_t axis_;
   double at_;
 };

@@ -76,7 +76,7 @@ CoveredPart plane_cut(double distance, const Vec<3>& gradient, const Vec<3>& hal
   return part;
 }
 
-CoveredPart covered_part(const Shape& shape, int dimension, const Vec<3>& centre, const Vec<3>& half, int depth, double tolerance) {
+CoveredPart covered_part(const Region& shape, int dimension, const Vec<3>& centre, const Vec<3>& half, int depth, double tolerance) {
   const double distance = shape.distance(centre);
   double reach2 = 0, narrowest = half[0];
   for (int k = 0; k < dimension; ++k) {

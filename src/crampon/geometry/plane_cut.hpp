@@ -1,7 +1,7 @@
 #pragma once
 /// How much of a small box a shape covers.
 
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 
 namespace crampon {
 
@@ -20,6 +20,6 @@ CoveredPart plane_cut(double distance, const Vec<3>& gradient, const Vec<3>& hal
 
 /// The part of the box centre +- half (m) that the shape covers: halved up to `depth` times, until the boundary in it is flat,
 /// and cut by a plane. tolerance (m): how far outside still counts as on the boundary.
-CoveredPart covered_part(const Shape& shape, int dimension, const Vec<3>& centre, const Vec<3>& half, int depth, double tolerance);
+CoveredPart covered_part(const Region& shape, int dimension, const Vec<3>& centre, const Vec<3>& half, int depth, double tolerance);
 
 }  // namespace crampon

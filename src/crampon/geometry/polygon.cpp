@@ -171,8 +171,13 @@ Vec<3> Polygon::outward(const Vec<3>& x) const {
 
 std::vector<PolygonFault> find_polygon_faults(const Corners& outer, const std::vector<Corners>& holes) {
   std::vector<PolygonFault> faults;
+  const auto add = [&](int loop, std::string what) {
+    PolygonFault& fault = faults.emplace_back();
+    fault.loop = loop;
+    fault.what = std::move(what);
+  };
   const auto check = [&](int loop, const Corners& corners) {
-    if (std::string what = loop_fault(corners); !what.empty()) faults.push_back({loop, std::move(what)});
+    if (std::string what = loop_fault(corners); !what.empty()) add(loop, std::move(what));
   };
   std::vector<Corners> loops;
   loops.push_back(opened(outer));
@@ -182,14 +187,14 @@ std::vector<PolygonFault> find_polygon_faults(const Corners& outer, const std::v
   for (std::size_t k = 1; k < loops.size(); ++k) {
     const int hole = static_cast<int>(k) - 1;
     if (loops_touch(loops[0], loops[k]))
-      faults.push_back({hole, "touches or crosses the outer boundary"});
+      add(hole, "touches or crosses the outer boundary");
     else if (place_in(loops[0], loops[k][0]) != Place::inside)
-      faults.push_back({hole, "lies outside the polygon"});
+      add(hole, "lies outside the polygon");
     for (std::size_t j = 1; j < k; ++j) {
       if (loops_touch(loops[j], loops[k]))
-        faults.push_back({hole, fmt::format("touches or crosses hole {}", j)});
+        add(hole, fmt::format("touches or crosses hole {}", j));
       else if (place_in(loops[j], loops[k][0]) == Place::inside || place_in(loops[k], loops[j][0]) == Place::inside)
-        faults.push_back({hole, fmt::format("and hole {} lie inside one another", j)});
+        add(hole, fmt::format("and hole {} lie inside one another", j));
     }
   }
   return faults;

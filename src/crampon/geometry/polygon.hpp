@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 
 namespace crampon {
 
@@ -12,7 +12,7 @@ using Corners = std::vector<Vec<2>>;  ///< m, in either sense of rotation; the l
 
 /// Points inside or on the outer loop and not strictly inside a hole. Points exactly on an edge are found to be on it by exact
 /// arithmetic: containment with zero slack is right for every double.
-class Polygon final : public Shape {
+class Polygon final : public Region {
  public:
   /// Loops as find_polygon_faults accepts them; a last corner that repeats the first is dropped.
   explicit Polygon(Corners outer, std::vector<Corners> holes = {});

@@ -7,7 +7,7 @@ namespace crampon {
 
 namespace {
 
-double measure_in(const Shape& shape, int dimension, const Vec<3>& low, const Vec<3>& high, int halvings) {
+double measure_in(const Region& shape, int dimension, const Vec<3>& low, const Vec<3>& high, int halvings) {
   Vec<3> middle;
   double measure = 1, reach = 0;
   std::size_t longest = 0;
@@ -31,7 +31,7 @@ double measure_in(const Shape& shape, int dimension, const Vec<3>& low, const Ve
 
 }  // namespace
 
-double rough_measure(const Shape& shape, int dimension, const Bounds3& box) {
+double rough_measure(const Region& shape, int dimension, const Bounds3& box) {
   const Bounds3 bounds = shape.bounds();
   Vec<3> low, high;
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {

@@ -1,11 +1,11 @@
 #pragma once
 /// Round shapes of the plane: disk, ellipse, ring, sector.
 
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 
 namespace crampon {
 
-struct Disk final : Shape {
+struct Disk final : Region {
   Vec<2> centre;  ///< m
   double radius;  ///< m
   Disk(const Vec<2>& centre_, double radius_) : centre(centre_), radius(radius_) {}
@@ -16,7 +16,7 @@ struct Disk final : Shape {
 };
 
 /// Ellipse whose first semi-axis is turned by an angle from the x axis.
-class Ellipse final : public Shape {
+class Ellipse final : public Region {
  public:
   /// centre, semi-axes in m; angle in rad, counter-clockwise.
   Ellipse(const Vec<2>& centre, const Vec<2>& semi_axes, double angle = 0);
@@ -32,7 +32,7 @@ class Ellipse final : public Shape {
 };
 
 /// Points between two concentric circles, both included.
-struct Ring final : Shape {
+struct Ring final : Region {
   Vec<2> centre;        ///< m
   double inner, outer;  ///< radii, m
   Ring(const Vec<2>& centre_, double inner_, double outer_) : centre(centre_), inner(inner_), outer(outer_) {}
@@ -43,7 +43,7 @@ struct Ring final : Shape {
 };
 
 /// Slice of a disk, from one angle counter-clockwise to another.
-class Sector final : public Shape {
+class Sector final : public Region {
  public:
   /// centre, radius in m; angles in rad, from < to <= from + 2 pi.
   Sector(const Vec<2>& centre, double radius, double from, double to);

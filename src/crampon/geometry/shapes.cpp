@@ -149,19 +149,19 @@ void check_equal_length(const char* key, const Numbers& a, const Numbers& b, Dia
 }
 
 struct PartsInput : Located {
-  std::vector<ShapePtr> of;
+  std::vector<RegionPtr> of;
 };
 struct DifferenceInput : Located {
-  ShapePtr of;
-  std::vector<ShapePtr> without;
+  RegionPtr of;
+  std::vector<RegionPtr> without;
 };
 struct RotatedInput : Located {
-  ShapePtr of;
+  RegionPtr of;
   double angle = 0;
   Numbers about, axis;
 };
 struct TranslatedInput : Located {
-  ShapePtr of;
+  RegionPtr of;
   Numbers by;
 };
 
@@ -169,24 +169,24 @@ Declaration<PartsInput> declare_parts(const char* name, const char* help, const 
   return Declaration<PartsInput>(name, help).one_of_list("of", &PartsInput::of, shapes, part_help, Presence::required, Length::at_least(1));
 }
 
-void add_plane_shapes(Family<ShapePtr>& family) {
+void add_plane_shapes(Family<RegionPtr>& family) {
   static const auto rectangle = declare_corners(
       "rectangle", "Rectangle with edges along the axes, boundary included; as a region also an edge (low and high equal on an axis).",
       two);
-  family.add(rectangle, [](const CornersInput& in) -> ShapePtr {
+  family.add(rectangle, [](const CornersInput& in) -> RegionPtr {
     const auto [low, high] = corners_of<2>(in);
     return std::make_shared<Rectangle>(low, high);
   });
 
   static const auto disk = declare_round("disk", "Disk.", two);
-  family.add(disk, [](const RoundInput& in) -> ShapePtr { return std::make_shared<Disk>(plane_vector(in.centre), in.radius); });
+  family.add(disk, [](const RoundInput& in) -> RegionPtr { return std::make_shared<Disk>(plane_vector(in.centre), in.radius); });
 
   static const auto ellipse =
       Declaration<EllipseInput>("ellipse", "Ellipse.")
           .quantities("centre", &EllipseInput::centre, "m", Bounds::any(), "Centre.", Presence::required, two)
           .quantities("semi_axes", &EllipseInput::semi_axes, "m", Bounds::positive(), "Half of each diameter.", Presence::required, two)
           .quantity("angle", &EllipseInput::angle, "rad", Bounds::any(), "From the x axis to the first semi-axis, counter-clockwise.");
-  family.add(ellipse, [](const EllipseInput& in) -> ShapePtr {
+  family.add(ellipse, [](const EllipseInput& in) -> RegionPtr {
     return std::make_shared<Ellipse>(plane_vector(in.centre), plane_vector(in.semi_axes), in.angle);
   });
 
@@ -200,7 +200,7 @@ void add_plane_shapes(Family<ShapePtr>& family) {
               diagnostics.add("inner", "the inner radius is not below the outer one",
                               fmt::format("{} m >= {} m leaves no area", in.inner, in.outer), "make inner smaller than outer");
           });
-  family.add(ring, [](const RingInput& in) -> ShapePtr { return std::make_shared<Ring>(plane_vector(in.centre), in.inner, in.outer); });
+  family.add(ring, [](const RingInput& in) -> RegionPtr { return std::make_shared<Ring>(plane_vector(in.centre), in.inner, in.outer); });
 
   static const auto sector =
       Declaration<SectorInput>("sector", "Slice of a disk, counter-clockwise from one angle to another.")
@@ -214,7 +214,7 @@ void add_plane_shapes(Family<ShapePtr>& family) {
               diagnostics.add("to", "`to` is not above `from` by at most a full turn", fmt::format("from {} to {} rad", in.from, in.to),
                               "add or subtract full turns (360 deg) until it is");
           });
-  family.add(sector, [](const SectorInput& in) -> ShapePtr {
+  family.add(sector, [](const SectorInput& in) -> RegionPtr {
     return std::make_shared<Sector>(plane_vector(in.centre), in.radius, in.from, in.to);
   });
 
@@ -223,20 +223,21 @@ void add_plane_shapes(Family<ShapePtr>& family) {
           .points("corners", &PolygonInput::corners, "m", "Corners in order, in either sense of rotation.", Presence::required, two)
           .records("holes", &PolygonInput::holes, hole_declaration, "Holes.")
           .check(check_polygon);
-  family.add(polygon, [](const PolygonInput& in) -> ShapePtr { return std::make_shared<Polygon>(corners_from(in.corners), holes_of(in)); });
+  family.add(polygon,
+             [](const PolygonInput& in) -> RegionPtr { return std::make_shared<Polygon>(corners_from(in.corners), holes_of(in)); });
 }
 
-void add_solids(Family<ShapePtr>& family) {
+void add_solids(Family<RegionPtr>& family) {
   static const auto box = declare_corners(
       "box", "Box with edges along the axes, boundary included; as a region also a face or an edge (low and high equal on an axis).",
       three);
-  family.add(box, [](const CornersInput& in) -> ShapePtr {
+  family.add(box, [](const CornersInput& in) -> RegionPtr {
     const auto [low, high] = corners_of<3>(in);
     return std::make_shared<Box>(low, high);
   });
 
   static const auto sphere = declare_round("sphere", "Sphere.", three);
-  family.add(sphere, [](const RoundInput& in) -> ShapePtr { return std::make_shared<Sphere>(space_vector(in.centre), in.radius); });
+  family.add(sphere, [](const RoundInput& in) -> RegionPtr { return std::make_shared<Sphere>(space_vector(in.centre), in.radius); });
 
   static const auto cylinder =
       Declaration<SpanInput>("cylinder", "Right circular cylinder with flat ends.")
@@ -246,14 +247,14 @@ void add_solids(Family<ShapePtr>& family) {
           .check([](const SpanInput& in, Diagnostics& diagnostics) {
             if (in.from == in.to) diagnostics.add("to", "both ends are the same point", "the cylinder has no length", "move one end");
           });
-  family.add(cylinder, [](const SpanInput& in) -> ShapePtr {
+  family.add(cylinder, [](const SpanInput& in) -> RegionPtr {
     return std::make_shared<Cylinder>(space_vector(in.from), space_vector(in.to), in.radius);
   });
 }
 
-void add_regions(Family<ShapePtr>& family) {
+void add_regions(Family<RegionPtr>& family) {
   static const auto everywhere = Declaration<NoInput>("everywhere", "All of the plane or of space.");
-  family.add(everywhere, [](const NoInput&) -> ShapePtr { return std::make_shared<Everywhere>(); });
+  family.add(everywhere, [](const NoInput&) -> RegionPtr { return std::make_shared<Everywhere>(); });
 
   static const auto half_plane =
       Declaration<HalfPlaneInput>("half_plane", "Everything on one side of a straight line (3D: of a plane), the line included.")
@@ -265,37 +266,37 @@ void add_regions(Family<ShapePtr>& family) {
             if (zero(in.normal))
               diagnostics.add("normal", "the normal is zero", "it gives no direction", "give a direction such as [1, 0]");
           });
-  family.add(half_plane, [](const HalfPlaneInput& in) -> ShapePtr {
+  family.add(half_plane, [](const HalfPlaneInput& in) -> RegionPtr {
     return std::make_shared<HalfPlane>(space_vector(in.point), space_vector(in.normal), dimension_of(in.point));
   });
 
   static const auto point = Declaration<PointInput>("point", "One point; as a region, the node or particle there.")
                                 .quantities("at", &PointInput::at, "m", Bounds::any(), "The point.", Presence::required, two_or_three);
-  family.add(point, [](const PointInput& in) -> ShapePtr { return std::make_shared<Point>(space_vector(in.at), dimension_of(in.at)); });
+  family.add(point, [](const PointInput& in) -> RegionPtr { return std::make_shared<Point>(space_vector(in.at), dimension_of(in.at)); });
 
   static const auto line =
       Declaration<SpanInput>("line", "Straight segment between two points, both included; as a region, the nodes on it.")
           .quantities("from", &SpanInput::from, "m", Bounds::any(), "One end.", Presence::required, two_or_three)
           .quantities("to", &SpanInput::to, "m", Bounds::any(), "The other end.", Presence::required, two_or_three)
           .check([](const SpanInput& in, Diagnostics& diagnostics) { check_equal_length("to", in.from, in.to, diagnostics); });
-  family.add(line, [](const SpanInput& in) -> ShapePtr {
+  family.add(line, [](const SpanInput& in) -> RegionPtr {
     return std::make_shared<Line>(space_vector(in.from), space_vector(in.to), dimension_of(in.from));
   });
 }
 
-void add_combinations(Family<ShapePtr>& family) {
+void add_combinations(Family<RegionPtr>& family) {
   static const auto joined = declare_parts("union", "Everything in at least one of several shapes.", "The shapes.");
-  family.add(joined, [](const PartsInput& in) -> ShapePtr { return std::make_shared<Union>(std::move(in.of)); });
+  family.add(joined, [](const PartsInput& in) -> RegionPtr { return std::make_shared<Union>(std::move(in.of)); });
 
   static const auto common = declare_parts("intersection", "What several shapes have in common.", "The shapes.");
-  family.add(common, [](const PartsInput& in) -> ShapePtr { return std::make_shared<Intersection>(std::move(in.of)); });
+  family.add(common, [](const PartsInput& in) -> RegionPtr { return std::make_shared<Intersection>(std::move(in.of)); });
 
   static const auto difference =
       Declaration<DifferenceInput>("difference", "A shape without others; the new boundaries stay part of it.")
           .one_of("of", &DifferenceInput::of, shapes, "The shape to take away from.", Presence::required)
           .one_of_list("without", &DifferenceInput::without, shapes, "The shapes to take away.", Presence::required, Length::at_least(1));
   family.add(difference,
-             [](const DifferenceInput& in) -> ShapePtr { return std::make_shared<Difference>(std::move(in.of), std::move(in.without)); });
+             [](const DifferenceInput& in) -> RegionPtr { return std::make_shared<Difference>(std::move(in.of), std::move(in.without)); });
 
   static const auto rotated =
       Declaration<RotatedInput>("rotated", "A shape turned about a point (3D: about an axis through it).")
@@ -309,7 +310,7 @@ void add_combinations(Family<ShapePtr>& family) {
             if (!in.axis.empty() && zero(in.axis))
               diagnostics.add("axis", "the axis is zero", "it gives no direction", "give a direction such as [0, 0, 1]");
           });
-  family.add(rotated, [](const RotatedInput& in) -> ShapePtr {
+  family.add(rotated, [](const RotatedInput& in) -> RegionPtr {
     return std::make_shared<Rotated>(std::move(in.of), in.angle, space_vector(in.about),
                                      in.axis.empty() ? Vec<3>{{0, 0, 1}} : space_vector(in.axis));
   });
@@ -319,11 +320,11 @@ void add_combinations(Family<ShapePtr>& family) {
           .one_of("of", &TranslatedInput::of, shapes, "The shape to shift.", Presence::required)
           .quantities("by", &TranslatedInput::by, "m", Bounds::any(), "The shift.", Presence::required, two_or_three);
   family.add(translated,
-             [](const TranslatedInput& in) -> ShapePtr { return std::make_shared<Translated>(std::move(in.of), space_vector(in.by)); });
+             [](const TranslatedInput& in) -> RegionPtr { return std::make_shared<Translated>(std::move(in.of), space_vector(in.by)); });
 }
 
-Family<ShapePtr> make_family() {
-  Family<ShapePtr> family("shape", "kind", "Shape of a body or region. Boundaries belong to shapes.");
+Family<RegionPtr> make_family() {
+  Family<RegionPtr> family("shape", "kind", "Shape of a body or region. Boundaries belong to shapes.");
   add_plane_shapes(family);
   add_solids(family);
   add_regions(family);
@@ -332,8 +333,8 @@ Family<ShapePtr> make_family() {
 }
 }  // namespace
 
-const Family<ShapePtr>& shapes() {
-  static const Family<ShapePtr> family = make_family();
+const Family<RegionPtr>& shapes() {
+  static const Family<RegionPtr> family = make_family();
   return family;
 }
 

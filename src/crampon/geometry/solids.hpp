@@ -1,11 +1,11 @@
 #pragma once
 /// Round solids: sphere and cylinder.
 
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 
 namespace crampon {
 
-struct Sphere final : Shape {
+struct Sphere final : Region {
   Vec<3> centre;  ///< m
   double radius;  ///< m
   Sphere(const Vec<3>& centre_, double radius_) : centre(centre_), radius(radius_) {}
@@ -17,7 +17,7 @@ struct Sphere final : Shape {
 };
 
 /// Right circular cylinder between the centres of its two flat ends.
-struct Cylinder final : Shape {
+struct Cylinder final : Region {
   Vec<3> from, to;  ///< m
   double radius;    ///< m
   Cylinder(const Vec<3>& from_, const Vec<3>& to_, double radius_) : from(from_), to(to_), radius(radius_) {}

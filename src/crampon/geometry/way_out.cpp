@@ -2,7 +2,7 @@
 
 namespace crampon {
 
-std::optional<double> way_out(const Shape& shape, const Vec<3>& x, const Vec<3>& n, double limit, double slack) {
+std::optional<double> way_out(const Region& shape, const Vec<3>& x, const Vec<3>& n, double limit, double slack) {
   constexpr int most_steps = 300;
   double way = 0;
   for (int steps = 0; steps < most_steps && way <= limit; ++steps) {

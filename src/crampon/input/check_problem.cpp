@@ -157,7 +157,7 @@ class ProblemChecker {
     }
   }
 
-  void check_shape(const Located& record, const std::string& key, const ShapePtr& shape) {
+  void check_shape(const Located& record, const std::string& key, const RegionPtr& shape) {
     if (!shape || shape->dimension() == 0 || shape->dimension() == problem_.dimension()) return;
     if (shape->dimension() == 3) add(record, key, "a shape in space", words(), "use a plane shape");
   }

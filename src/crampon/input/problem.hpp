@@ -17,7 +17,7 @@
 #include "crampon/core/options.hpp"
 #include "crampon/core/vector.hpp"
 #include "crampon/crack/traction/law.hpp"
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 #include "crampon/material/material.hpp"
 #include "crampon/shape/registry.hpp"
 #include "crampon/step/transfer.hpp"
@@ -100,7 +100,7 @@ struct ContactPairInput : Located {
 /// [[rigid]]: a body of particles that moves as prescribed.
 struct RigidInput : Located {
   std::string name;
-  ShapePtr shape;
+  RegionPtr shape;
   std::vector<std::int64_t> particles_per_cell{2};
   double thickness = 1;                 ///< m, 2D only
   std::vector<ValueFunction> velocity;  ///< of its centre, m/s, of time
@@ -145,7 +145,7 @@ struct BodyInput : Located {
   std::string name;
   std::string material;
   std::optional<std::string> field;                 ///< velocity field; left out: what contact.fields says
-  ShapePtr shape;                                   ///< either shape or particles
+  RegionPtr shape;                                  ///< either shape or particles
   std::optional<std::string> particles;             ///< CSV file, relative to the input: x,y[,z],volume[,vx,vy[,vz]], SI
   std::vector<std::int64_t> particles_per_cell{2};  ///< per direction; one value or one per axis; also the uGIMP particle size
   std::optional<bool> match_mass;                   ///< do particles follow the boundary of the shape? Left out: they do not
@@ -174,14 +174,14 @@ struct CrackInput : Located {
   bool fixed = false;                 ///< fixed in space
   ContactLawSpec contact;             ///< law between its faces (contact/law.hpp)
   TractionLawSpec traction;           ///< between its faces as they open (crack/traction/law.hpp)
-  ShapePtr traction_region;           ///< vertices that bear it; none: all
+  RegionPtr traction_region;          ///< vertices that bear it; none: all
   std::optional<double> thickness;    ///< m; default: that of the bodies
 };
 
 /// [[boundary]]: nodal velocity prescribed in a region.
 struct BoundaryInput : Located {
   std::string name;
-  ShapePtr region;                                       ///< nodes in this region; boundaries are included within 1e-9 of a cell
+  RegionPtr region;                                      ///< nodes in this region; boundaries are included within 1e-9 of a cell
   std::optional<ValueFunction> vx, vy, vz;               ///< m/s; a component left out is free
   double start = 0;                                      ///< s
   double end = std::numeric_limits<double>::infinity();  ///< s
@@ -202,7 +202,7 @@ struct LoadInput : Located {
   std::string name;
   enum class Kind { total_force, force_each, traction, pressure } kind = Kind::total_force;
   std::string body;                  ///< restrict to this body; empty: all
-  ShapePtr region;                   ///< particles initially in this region (traction, pressure: their outer faces)
+  RegionPtr region;                  ///< particles initially in this region (traction, pressure: their outer faces)
   std::vector<ValueFunction> value;  ///< N, N, Pa (per component); pressure: one, Pa. In t only
   std::optional<std::string> face;   ///< traction, pressure: "x-", "x+", "y-", ...: where the boundary looks; none: all of it
 };

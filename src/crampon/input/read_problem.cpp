@@ -28,7 +28,7 @@ void replace_default(ResolvedTable& root, const std::string& table, const std::s
 void give_fields(Problem& problem, ResolvedTable& resolved) {
   ContactInput& contact = problem.contact;
   if (!contact.keys.contains("default") || contact.keys.contains("fields") || problem.bodies.size() < 2) return;
-  if (!problem.walls.empty() || contact.between_fields->joins()) return;
+  if (!problem.walls.empty() || contact.between_fields->bonds()) return;
   if (std::any_of(problem.rigids.begin(), problem.rigids.end(), [](const RigidInput& r) { return r.role == RigidInput::Role::contact; }))
     return;
   if (std::any_of(problem.bodies.begin(), problem.bodies.end(), [](const BodyInput& body) { return body.field.has_value(); })) return;

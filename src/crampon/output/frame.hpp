@@ -12,7 +12,7 @@ namespace crampon {
 
 /// One quantity on particles, nodes or crack vertices: row-major, components values per item.
 /// Symmetric tensors have 6 components in the order xx, yy, zz, xy, yz, xz; vectors 3.
-struct Field {
+struct DataArray {
   std::string name;
   std::string unit;
   int components = 1;
@@ -31,7 +31,7 @@ struct PointFrame {
   std::int64_t step = 0;
   int dimension = 2;
   Numbers positions;                    ///< 3 per point, m
-  std::vector<Field> fields;            ///< particles always have "id" and "body"
+  std::vector<DataArray> fields;        ///< particles always have "id" and "body"
   std::vector<std::string> body_names;  ///< what the numbers in "body" stand for; empty for nodes
   std::vector<RigidPlace> rigid;        ///< rigid bodies, then walls, in the order of the input; empty for nodes
   double cell = 0;                      ///< grid spacing, m (largest axis), for drawing
@@ -45,7 +45,7 @@ struct CrackFrame {
   std::vector<std::string> names;
   std::vector<std::int64_t> begin{0};
   std::vector<double> plane, upper, lower;  ///< 3 per vertex, m: the crack plane and its two surfaces
-  std::vector<Field> fields;                ///< per vertex: "opening" and "sliding" (m), ...
+  std::vector<DataArray> fields;            ///< per vertex: "opening" and "sliding" (m), ...
   std::vector<double> original;             ///< 3 per vertex, m: where the vertex began, for drawing magnified; may be empty
 };
 

@@ -18,14 +18,14 @@ namespace {
 constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 constexpr std::array<std::string_view, 6> tensor_parts{"xx", "yy", "zz", "xy", "yz", "xz"};
 
-const Field* find_field(const PointFrame& frame, std::string_view name) {
-  for (const Field& field : frame.fields)
+const DataArray* find_field(const PointFrame& frame, std::string_view name) {
+  for (const DataArray& field : frame.fields)
     if (field.name == name) return &field;
   return nullptr;
 }
 
 template <class Function>
-std::vector<double> per_point(const Field& field, Function function) {
+std::vector<double> per_point(const DataArray& field, Function function) {
   const std::size_t n = static_cast<std::size_t>(field.components);
   std::vector<double> out(field.values.size() / n);
   std::vector<double> row(n);
@@ -36,11 +36,11 @@ std::vector<double> per_point(const Field& field, Function function) {
   return out;
 }
 
-std::vector<double> magnitude(const Field& field) {
+std::vector<double> magnitude(const DataArray& field) {
   return per_point(field, [](const double* v) { return std::hypot(v[0], v[1], v[2]); });
 }
 
-std::optional<std::size_t> component_index(const Field& field, std::string_view part) {
+std::optional<std::size_t> component_index(const DataArray& field, std::string_view part) {
   const auto index = [&](const auto& parts) -> std::optional<std::size_t> {
     const auto found = std::find(parts.begin(), parts.end(), part);
     if (found == parts.end()) return std::nullopt;
@@ -54,13 +54,13 @@ std::optional<std::size_t> component_index(const Field& field, std::string_view 
 }  // namespace
 
 PointValues evaluate_quantity(const PointFrame& frame, const std::string& name, double fringe_constant) {
-  if (const Field* field = find_field(frame, name)) {
+  if (const DataArray* field = find_field(frame, name)) {
     if (field->components == 1) return {name, field->unit, field->values.doubles()};
     if (field->components == 3) return {name, field->unit, magnitude(*field)};
     if (field->components == 6) throw std::invalid_argument(fmt::format("\"{0}\" is a tensor; name a component, such as \"{0}_xx\"", name));
   }
   if (const std::size_t cut = name.rfind('_'); cut != std::string::npos) {
-    const Field* field = find_field(frame, std::string_view(name).substr(0, cut));
+    const DataArray* field = find_field(frame, std::string_view(name).substr(0, cut));
     const std::string_view part = std::string_view(name).substr(cut + 1);
     if (field && field->components == 3 && part == "magnitude") return {name, field->unit, magnitude(*field)};
     if (field) {
@@ -68,7 +68,7 @@ PointValues evaluate_quantity(const PointFrame& frame, const std::string& name, 
         return {name, field->unit, per_point(*field, [&](const double* v) { return v[*k]; })};
     }
   }
-  const Field* stress = find_field(frame, "stress");
+  const DataArray* stress = find_field(frame, "stress");
   if (const StressMeasure* measure = find_stress_measure(name)) {
     if (!stress || stress->components != 6)
       throw std::invalid_argument(fmt::format("\"{}\" needs the field \"stress\", which these results do not hold", name));
@@ -78,7 +78,7 @@ PointValues evaluate_quantity(const PointFrame& frame, const std::string& name, 
 }
 
 bool is_category(const PointFrame& frame, const std::string& name) {
-  const Field* field = find_field(frame, name);
+  const DataArray* field = find_field(frame, name);
   if (!field || field->components != 1 || name == "id") return false;
   const NumberType type = field->values.type();
   return name == "body" || name == "material" || type == NumberType::int32 || type == NumberType::int64;
@@ -86,14 +86,14 @@ bool is_category(const PointFrame& frame, const std::string& name) {
 
 std::vector<std::string> quantity_names(const PointFrame& frame) {
   std::vector<std::string> names;
-  for (const Field& field : frame.fields) {
+  for (const DataArray& field : frame.fields) {
     if (field.components == 1 || field.components == 3) names.push_back(field.name);
     if (field.components == 3)
       for (const std::string_view part : axes) names.push_back(fmt::format("{}_{}", field.name, part));
     if (field.components == 6)
       for (const std::string_view part : tensor_parts) names.push_back(fmt::format("{}_{}", field.name, part));
   }
-  if (const Field* stress = find_field(frame, "stress"); stress && stress->components == 6)
+  if (const DataArray* stress = find_field(frame, "stress"); stress && stress->components == 6)
     for (const StressMeasure& measure : stress_measures()) names.emplace_back(measure.name);
   return names;
 }

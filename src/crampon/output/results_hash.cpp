@@ -24,8 +24,8 @@ class Hash {
   void add_all(const Values& values) {
     for (const double v : values) add(v);
   }
-  void add(const std::vector<Field>& fields) {
-    for (const Field& field : fields) {
+  void add(const std::vector<DataArray>& fields) {
+    for (const DataArray& field : fields) {
       add(std::string_view(field.name));
       add_all(field.values);
     }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 #include "crampon/output/frame.hpp"
 
 namespace crampon {
@@ -13,7 +13,7 @@ namespace crampon {
 struct RigidShape {
   std::string name;
   int body = -1;                     ///< its number in the field "body"; -1: a wall, which has no particles
-  ShapePtr shape;                    ///< as it was at the start
+  RegionPtr shape;                   ///< as it was at the start
   std::optional<Bounds3> surface{};  ///< a box around its surface at the start; none where it is endless
   RigidPlace place{};                ///< at the time of the picture
 };

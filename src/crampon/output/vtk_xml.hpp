@@ -12,11 +12,11 @@ namespace crampon {
 
 /// A poly data set of one piece. Arrays are stored as the type they have; units as VTK's own UNITS_LABEL.
 struct PolyData {
-  std::vector<Field> field_data;  ///< stored as text, so a person can read the time in an editor
-  std::string string_name;        ///< one array of strings in the field data; empty: none
+  std::vector<DataArray> field_data;  ///< stored as text, so a person can read the time in an editor
+  std::string string_name;            ///< one array of strings in the field data; empty: none
   std::vector<std::string> strings;
-  Field points;  ///< 3 components
-  std::vector<Field> point_data, cell_data;
+  DataArray points;  ///< 3 components
+  std::vector<DataArray> point_data, cell_data;
   std::size_t vertices = 0;  ///< the first so many points are a cell each
   Numbers line_ends;         ///< lines run through all points one after another: past the last point of each
 };

@@ -131,8 +131,8 @@ NumberType type_of(const std::string& name) {
   damaged("unknown data type " + name);
 }
 
-Field read_array(const Tag& tag, std::string_view appended) {
-  Field array;
+DataArray read_array(const Tag& tag, std::string_view appended) {
+  DataArray array;
   array.name = tag.attribute("Name");
   array.components = static_cast<int>(tag.count("NumberOfComponents"));
   if (array.components < 1) damaged("array " + array.name + " has no components");
@@ -188,7 +188,7 @@ std::string_view checked(std::string_view bytes) {
   return bytes;
 }
 
-void check_count(const Field& a, std::size_t items) {
+void check_count(const DataArray& a, std::size_t items) {
   if (a.values.size() != items * static_cast<std::size_t>(a.components)) damaged("array " + a.name + " has a wrong length");
 }
 
@@ -204,8 +204,8 @@ PolyData decode_poly_data(std::string_view bytes) {
   PolyData data;
   std::size_t points = 0, cells = 0;
   std::string section;
-  Field* last = nullptr;
-  Field discarded;
+  DataArray* last = nullptr;
+  DataArray discarded;
   TagReader tags(bytes.substr(0, mark));
   while (std::optional<Tag> tag = tags.next()) {
     if (tag->name == "Piece") {
@@ -218,7 +218,7 @@ PolyData decode_poly_data(std::string_view bytes) {
     } else if (tag->name == "InformationKey") {
       if (last) last->unit = unescape(tag->text);
     } else if (tag->name == "DataArray") {
-      Field array = read_array(*tag, appended);
+      DataArray array = read_array(*tag, appended);
       last = &discarded;
       if (section == "FieldData")
         last = &data.field_data.emplace_back(std::move(array));
@@ -236,8 +236,8 @@ PolyData decode_poly_data(std::string_view bytes) {
   }
   if (data.points.components != 3) damaged("its points have no three coordinates");
   check_count(data.points, points);
-  for (const Field& a : data.point_data) check_count(a, points);
-  for (const Field& a : data.cell_data) check_count(a, cells);
+  for (const DataArray& a : data.point_data) check_count(a, points);
+  for (const DataArray& a : data.cell_data) check_count(a, cells);
   return data;
 }
 

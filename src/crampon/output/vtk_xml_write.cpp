@@ -114,7 +114,7 @@ class Compressor {
 const char* const axis_names[] = {"X", "Y", "Z"};
 const char* const tensor_names[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
 
-std::string open_tag(const Field& array) {
+std::string open_tag(const DataArray& array) {
   std::string tag = fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"", type_name(array.values.type()),
                                 escape(array.name), array.components);
   const char* const* names = array.components == 3 ? axis_names : array.components == 6 ? tensor_names : nullptr;
@@ -125,7 +125,7 @@ std::string open_tag(const Field& array) {
 class Document {
  public:
   void line(std::string_view text) { (xml_ += text) += '\n'; }
-  void array(Field& a) {
+  void array(DataArray& a) {
     line(fmt::format("{} format=\"appended\" offset=\"{}\">", open_tag(a), appended_bytes_));
     if (!a.unit.empty())
       line(fmt::format("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>", escape(a.unit)));
@@ -133,7 +133,7 @@ class Document {
     appended_bytes_ += compressor_.append(pieces_, a.values);
     a.values = Numbers();
   }
-  void text_array(const Field& a) {
+  void text_array(const DataArray& a) {
     line(fmt::format("{} NumberOfTuples=\"{}\" format=\"ascii\">", open_tag(a), a.values.size() / static_cast<std::size_t>(a.components)));
     for (const double v : a.values) {
       if (a.values.type() == NumberType::int64)
@@ -155,7 +155,7 @@ class Document {
   /// Cells that take all points one after another.
   void cells(const char* section, std::size_t points, Numbers&& ends) {
     line(fmt::format("<{}>", section));
-    Field connectivity{"connectivity", "", 1, counted(0, points)}, offsets{"offsets", "", 1, std::move(ends).as(NumberType::int32)};
+    DataArray connectivity{"connectivity", "", 1, counted(0, points)}, offsets{"offsets", "", 1, std::move(ends).as(NumberType::int32)};
     array(connectivity);
     array(offsets);
     line(fmt::format("</{}>", section));
@@ -178,7 +178,7 @@ class Document {
   Compressor compressor_;
 };
 
-void check_length(const Field& a, std::size_t items, const char* what) {
+void check_length(const DataArray& a, std::size_t items, const char* what) {
   if (a.components < 1 || a.values.size() != items * static_cast<std::size_t>(a.components))
     throw std::invalid_argument(fmt::format("field \"{}\" has {} values, but {} {} of {} components need {}", a.name, a.values.size(),
                                             items, what, a.components, items * a.components));
@@ -190,8 +190,8 @@ std::vector<std::string> encode_poly_data(PolyData data) {
   const std::size_t points = data.points.values.size() / 3;
   check_length(data.points, points, "points");
   const std::size_t vertices = data.vertices, lines = data.line_ends.size();
-  for (const Field& a : data.point_data) check_length(a, points, "points");
-  for (const Field& a : data.cell_data) check_length(a, vertices + lines, "cells");
+  for (const DataArray& a : data.point_data) check_length(a, points, "points");
+  for (const DataArray& a : data.cell_data) check_length(a, vertices + lines, "cells");
 
   Document doc;
   doc.line("<?xml version=\"1.0\"?>");
@@ -200,7 +200,7 @@ std::vector<std::string> encode_poly_data(PolyData data) {
       "compressor=\"vtkZLibDataCompressor\">");
   doc.line("<PolyData>");
   doc.line("<FieldData>");
-  for (const Field& a : data.field_data) doc.text_array(a);
+  for (const DataArray& a : data.field_data) doc.text_array(a);
   if (!data.string_name.empty()) doc.strings(data.string_name, data.strings);
   doc.line("</FieldData>");
   doc.line(
@@ -208,10 +208,10 @@ std::vector<std::string> encode_poly_data(PolyData data) {
                   "NumberOfPolys=\"0\">",
                   points, vertices, lines));
   doc.line("<PointData>");
-  for (Field& a : data.point_data) doc.array(a);
+  for (DataArray& a : data.point_data) doc.array(a);
   doc.line("</PointData>");
   doc.line("<CellData>");
-  for (Field& a : data.cell_data) doc.array(a);
+  for (DataArray& a : data.cell_data) doc.array(a);
   doc.line("</CellData>");
   doc.line("<Points>");
   doc.array(data.points);

@@ -21,7 +21,7 @@ constexpr const char* bodies_name = "body_names";
 constexpr const char *start_name = "rigid_start", *centre_name = "rigid_centre", *turn_name = "rigid_turn";
 
 // Labels must survive single precision, which holds whole numbers only up to 2^24.
-bool is_label(const Field& field) {
+bool is_label(const DataArray& field) {
   static constexpr std::array<std::string_view, 6> names{"id", "body", "material", "node", "velocity_field", "crack"};
   if (std::find(names.begin(), names.end(), field.name) == names.end()) return false;
   if (field.values.type() == NumberType::int32 || field.values.type() == NumberType::int64) return true;
@@ -30,23 +30,23 @@ bool is_label(const Field& field) {
   return true;
 }
 
-Field real_array(const char* name, const char* unit, int components, Numbers&& values, Precision precision) {
+DataArray real_array(const char* name, const char* unit, int components, Numbers&& values, Precision precision) {
   return {name, unit, components, std::move(values).as(real_type(precision))};
 }
 
-Field typed(Field&& field, Precision precision) {
+DataArray typed(DataArray&& field, Precision precision) {
   const NumberType type = is_label(field) ? NumberType::int64 : real_type(precision);
   field.values = std::move(field.values).as(type);
   return std::move(field);
 }
 
-Field real_scalar(const char* name, const char* unit, double value) { return {name, unit, 1, {value}}; }
-Field whole_scalar(const char* name, double value) { return {name, "", 1, Numbers{value}.as(NumberType::int64)}; }
+DataArray real_scalar(const char* name, const char* unit, double value) { return {name, unit, 1, {value}}; }
+DataArray whole_scalar(const char* name, double value) { return {name, "", 1, Numbers{value}.as(NumberType::int64)}; }
 
 // Where rigid bodies and walls are, a row of each array for each.
 template <std::size_t Count, class Member>
-Field rigid_array(const char* name, const char* unit, const std::vector<RigidPlace>& places, Member member) {
-  Field field{name, unit, static_cast<int>(Count), {}};
+DataArray rigid_array(const char* name, const char* unit, const std::vector<RigidPlace>& places, Member member) {
+  DataArray field{name, unit, static_cast<int>(Count), {}};
   for (const RigidPlace& place : places)
     for (const double v : place.*member) field.values.push_back(v);
   return field;
@@ -54,7 +54,7 @@ Field rigid_array(const char* name, const char* unit, const std::vector<RigidPla
 
 template <class Member>
 void read_rigid(const PolyData& data, std::string_view name, std::vector<RigidPlace>& places, Member member) {
-  for (const Field& a : data.field_data) {
+  for (const DataArray& a : data.field_data) {
     if (a.name != name) continue;
     const std::size_t length = (RigidPlace{}.*member).size();
     if (a.values.size() % length != 0 || (!places.empty() && places.size() != a.values.size() / length))
@@ -65,7 +65,7 @@ void read_rigid(const PolyData& data, std::string_view name, std::vector<RigidPl
 }
 
 double scalar(const PolyData& data, std::string_view name) {
-  for (const Field& a : data.field_data)
+  for (const DataArray& a : data.field_data)
     if (a.name == name && !a.values.empty()) return a.values[0];
   throw std::runtime_error(fmt::format("it holds no {}; it is not a file of the expected kind", name));
 }
@@ -90,7 +90,7 @@ PointFrame point_frame(PolyData&& data) {
   read_rigid(data, turn_name, frame.rigid, &RigidPlace::turn);
   frame.positions = std::move(data.points.values);
   if (data.string_name == bodies_name) frame.body_names = std::move(data.strings);
-  for (Field& a : data.point_data) {
+  for (DataArray& a : data.point_data) {
     if (a.name == size_name)
       frame.particle_size = std::move(a.values);
     else
@@ -119,7 +119,7 @@ CrackFrame crack_frame(PolyData&& data) {
   frame.plane = third(data.points.values, 0, 3);
   frame.upper = third(data.points.values, 1, 3);
   frame.lower = third(data.points.values, 2, 3);
-  for (Field& a : data.point_data) {
+  for (DataArray& a : data.point_data) {
     std::vector<double> values = third(a.values, 0, static_cast<std::size_t>(a.components));
     if (a.name == original_name)
       frame.original = std::move(values);
@@ -146,7 +146,7 @@ void write_vtp(const std::filesystem::path& path, PointFrame frame, Precision pr
   }
   data.vertices = frame.positions.size() / 3;
   data.points = real_array("Points", "m", 3, std::move(frame.positions), precision);
-  for (Field& field : frame.fields) data.point_data.push_back(typed(std::move(field), precision));
+  for (DataArray& field : frame.fields) data.point_data.push_back(typed(std::move(field), precision));
   if (!frame.particle_size.empty()) data.point_data.push_back(real_array(size_name, "m", 3, std::move(frame.particle_size), precision));
   write_file(path, encode_poly_data(std::move(data)));
 }
@@ -165,16 +165,16 @@ void write_vtp(const std::filesystem::path& path, CrackFrame frame, Precision pr
   points.insert(points.end(), frame.upper.begin(), frame.upper.end());
   points.insert(points.end(), frame.lower.begin(), frame.lower.end());
   data.points = real_array("Points", "m", 3, std::move(points), precision);
-  const auto add_thrice = [&](Field&& field) {
+  const auto add_thrice = [&](DataArray&& field) {
     const std::vector<double> once = field.values.doubles();
     std::vector<double> thrice;
     for (int k = 0; k < 3; ++k) thrice.insert(thrice.end(), once.begin(), once.end());
     field.values = std::move(thrice);
     data.point_data.push_back(typed(std::move(field), precision));
   };
-  for (Field& field : frame.fields) add_thrice(std::move(field));
+  for (DataArray& field : frame.fields) add_thrice(std::move(field));
   if (!frame.original.empty()) add_thrice({original_name, "m", 3, std::move(frame.original)});
-  Field crack{"crack", "", 1, Numbers(NumberType::int32)}, surface{"surface", "", 1, Numbers(NumberType::int32)};
+  DataArray crack{"crack", "", 1, Numbers(NumberType::int32)}, surface{"surface", "", 1, Numbers(NumberType::int32)};
   for (std::size_t part = 0; part < 3; ++part) {
     for (std::size_t k = 0; k < cracks; ++k) {
       data.line_ends.push_back(static_cast<double>(part * vertices) + static_cast<double>(frame.begin[k + 1]));

@@ -10,8 +10,8 @@
 namespace crampon {
 namespace {
 
-const Field* find(const PointFrame& frame, std::string_view name, int components) {
-  for (const Field& field : frame.fields)
+const DataArray* find(const PointFrame& frame, std::string_view name, int components) {
+  for (const DataArray& field : frame.fields)
     if (field.name == name && field.components == components) return &field;
   return nullptr;
 }
@@ -68,14 +68,14 @@ class DisplacementGradient {
   }
 
   const PointFrame& frame_;
-  const Field *gradient_, *displacement_;
+  const DataArray *gradient_, *displacement_;
   std::map<std::array<long long, 2>, std::size_t> at_place_;
 };
 
 }  // namespace
 
 std::vector<ParticleShape> particle_shapes(const PointFrame& frame, double magnification) {
-  const Field* displacement = find(frame, "displacement", 3);
+  const DataArray* displacement = find(frame, "displacement", 3);
   const DisplacementGradient gradient(frame);
   if (magnification != 1 && !displacement)
     throw std::invalid_argument("magnified displacements need the field \"displacement\", which these results do not hold");

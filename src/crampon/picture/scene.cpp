@@ -61,7 +61,7 @@ Scene make_scene(const Snapshot& snapshot, const DrawOptions& options, PointValu
   quantity = evaluate_quantity(frame, options.quantity, options.fringe_constant);
   scene.values = std::move(quantity.values);
   scene.time = frame.time;
-  for (const Field& field : frame.fields) {
+  for (const DataArray& field : frame.fields) {
     if (field.name != "body" || field.components != 1) continue;
     for (const double b : field.values) scene.body.push_back(static_cast<int>(b));
   }

@@ -176,7 +176,7 @@ class BodyBuilder {
 
   /// A rigid body so thin that no particle's place lies in it has a surface all the same. An intersection of shapes that do not meet has none:
   /// not one of many points of its box is in it.
-  static bool may_be_empty(const Shape& shape) {
+  static bool may_be_empty(const Region& shape) {
     constexpr int side = 33;
     const Bounds3 box = shape.bounds();
     for (std::size_t k = 0; k < Dim; ++k) {
@@ -258,7 +258,7 @@ class BodyBuilder {
   }
 
   /// From a particle's middle to the nearest point of its body's surface, m; zero where that is not its own.
-  Vec<Dim> surface_from(const Shape& shape, const Vec<3>& x, const std::array<int, Dim>& per_cell) const {
+  Vec<Dim> surface_from(const Region& shape, const Vec<3>& x, const std::array<int, Dim>& per_cell) const {
     Vec<Dim> to_surface;
     const double distance = shape.distance(x);
     if (distance < -depth_of_surface<Dim>(grid_, per_cell)) return to_surface;

@@ -80,7 +80,7 @@ void add_pair(const Problem& problem, const ContactPairInput& in, Model<Dim>& mo
 template <int Dim>
 void find_bonds(Model<Dim>& model) {
   const auto bonded = [&](std::uint16_t a, std::uint16_t b) {
-    return model.contact.joins(model.contact.law_between(a, b)) && !model.ignores_cracks(a) && !model.ignores_cracks(b);
+    return model.contact.makes_one_group(model.contact.law_between(a, b)) && !model.ignores_cracks(a) && !model.ignores_cracks(b);
   };
   const auto count = static_cast<std::uint16_t>(model.contact.fields.size());
   for (std::uint16_t a = 0; a < count; ++a) {

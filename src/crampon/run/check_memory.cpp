@@ -49,7 +49,7 @@ template <int Dim>
 constexpr double bytes_of_active_cell = (Dim == 2 ? 5 : 9) * sizeof(Pack);
 
 struct Filling {
-  const Shape* shape = nullptr;
+  const Region* shape = nullptr;
   const std::vector<std::int64_t>* per_cell = nullptr;
   const MaterialLaw* law = nullptr;  ///< none: rigid
 };

@@ -51,7 +51,7 @@ Material2D::Material2D(const Problem& problem, const BuiltBodies<2>& bodies, con
 
 bool Material2D::at(const Vec<2>& x) const {
   const double slack = 1e-9 * cell_;
-  for (const ShapePtr& shape : shapes_) {
+  for (const RegionPtr& shape : shapes_) {
     if (shape->contains(in_space(x), slack)) return true;
   }
   const auto first = std::lower_bound(particles_.begin(), particles_.end(), x[0] - widest_ - slack,

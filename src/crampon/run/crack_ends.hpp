@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 #include "crampon/run/build_bodies.hpp"
 #include "crampon/state/cracks.hpp"
 #include "crampon/step/model.hpp"
@@ -27,7 +27,7 @@ class Material2D {
   struct Box {
     Vec<2> low, high;
   };
-  std::vector<ShapePtr> shapes_;
+  std::vector<RegionPtr> shapes_;
   std::vector<Box> particles_;  ///< by low[0]
   double cell_ = 0, reach_ = 0, widest_ = 0;
 };

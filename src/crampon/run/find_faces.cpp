@@ -77,7 +77,7 @@ namespace {
 
 /// Where the boundary lies between a point in the shape and one `step` further on that is not.
 template <int Dim>
-Vec<Dim> boundary_between(const Shape& shape, const Vec<Dim>& inside, const Vec<Dim>& step) {
+Vec<Dim> boundary_between(const Region& shape, const Vec<Dim>& inside, const Vec<Dim>& step) {
   double in = 0, out = 1;
   for (int halving = 0; halving < 40; ++halving) {
     const double middle = 0.5 * (in + out);
@@ -88,7 +88,7 @@ Vec<Dim> boundary_between(const Shape& shape, const Vec<Dim>& inside, const Vec<
 
 /// Gradient of the distance by differences much smaller than particles.
 template <int Dim>
-Vec<Dim> normal_at(const Shape& shape, const Vec<Dim>& x, double step) {
+Vec<Dim> normal_at(const Region& shape, const Vec<Dim>& x, double step) {
   Vec<Dim> n;
   for (int k = 0; k < Dim; ++k) {
     Vec<Dim> a = x, b = x;
@@ -102,7 +102,7 @@ Vec<Dim> normal_at(const Shape& shape, const Vec<Dim>& x, double step) {
 }  // namespace
 
 template <int Dim>
-std::vector<OuterFace<Dim>> find_outer_faces(const BodyLattice<Dim>& lattice, const BuiltBodies<Dim>& bodies, const Shape& shape,
+std::vector<OuterFace<Dim>> find_outer_faces(const BodyLattice<Dim>& lattice, const BuiltBodies<Dim>& bodies, const Region& shape,
                                              const std::vector<SymmetryPlane>& symmetries) {
   std::vector<OuterFace<Dim>> faces;
   for (const std::uint32_t p : lattice.particles()) {
@@ -130,10 +130,10 @@ std::vector<OuterFace<Dim>> find_outer_faces(const BodyLattice<Dim>& lattice, co
   return faces;
 }
 
-#define CRAMPON_INSTANTIATE(DIM)                                                                                             \
-  template class BodyLattice<DIM>;                                                                                           \
-  template const SymmetryPlane* plane_of_face<DIM>(const std::vector<SymmetryPlane>&, Vec<DIM>, int, double);                \
-  template std::vector<OuterFace<DIM>> find_outer_faces<DIM>(const BodyLattice<DIM>&, const BuiltBodies<DIM>&, const Shape&, \
+#define CRAMPON_INSTANTIATE(DIM)                                                                                              \
+  template class BodyLattice<DIM>;                                                                                            \
+  template const SymmetryPlane* plane_of_face<DIM>(const std::vector<SymmetryPlane>&, Vec<DIM>, int, double);                 \
+  template std::vector<OuterFace<DIM>> find_outer_faces<DIM>(const BodyLattice<DIM>&, const BuiltBodies<DIM>&, const Region&, \
                                                              const std::vector<SymmetryPlane>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)

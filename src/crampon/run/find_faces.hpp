@@ -46,7 +46,7 @@ struct OuterFace {
 
 /// All outer faces of a body in the order of its particles, but for those on symmetry planes, where it goes on.
 template <int Dim>
-std::vector<OuterFace<Dim>> find_outer_faces(const BodyLattice<Dim>& lattice, const BuiltBodies<Dim>& bodies, const Shape& shape,
+std::vector<OuterFace<Dim>> find_outer_faces(const BodyLattice<Dim>& lattice, const BuiltBodies<Dim>& bodies, const Region& shape,
                                              const std::vector<SymmetryPlane>& symmetries);
 
 /// Is the middle of a face on a symmetry plane?

@@ -123,7 +123,7 @@ CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work) {
   CrackFrame frame;
   frame.time = state.clock.time;
   frame.step = state.clock.step;
-  Field opening{"opening", "m", 1, {}}, sliding{"sliding", "m", 1, {}};
+  DataArray opening{"opening", "m", 1, {}}, sliding{"sliding", "m", 1, {}};
   for (const Crack<2>& leading : state.cracks.list) {
     const Crack<2> crack = present_crack(state, work, leading);
     const std::vector<CrackOpening> openings = openings_of(crack);
@@ -141,7 +141,7 @@ CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work) {
   }
   frame.fields = {opening, sliding};
   if (std::any_of(state.cracks.list.begin(), state.cracks.list.end(), [](const Crack<2>& c) { return !c.traction.history.empty(); })) {
-    Field normal{"traction_normal", "Pa", 1, {}}, shear{"traction_shear", "Pa", 1, {}}, damage{"damage", "1", 1, {}};
+    DataArray normal{"traction_normal", "Pa", 1, {}}, shear{"traction_shear", "Pa", 1, {}}, damage{"damage", "1", 1, {}};
     for (std::size_t c = 0; c < state.cracks.size(); ++c) {
       for (std::size_t v = 0; v < state.cracks.list[c].plane.size(); ++v) {
         const TractionHistory h =
@@ -171,7 +171,8 @@ PointFrame sample_nodes(const State<Dim>& state, const StepWork<Dim>& work, cons
   frame.step = state.clock.step;
   frame.dimension = Dim;
   for (int k = 0; k < Dim; ++k) frame.cell = std::fmax(frame.cell, model.grid.cell[k]);
-  Field field{"cracks_across", "1", 1, {}}, mass{"mass", "kg", 1, {}}, momentum{"momentum", "kg m/s", 3, {}}, force{"force", "N", 3, {}};
+  DataArray field{"cracks_across", "1", 1, {}}, mass{"mass", "kg", 1, {}}, momentum{"momentum", "kg m/s", 3, {}},
+      force{"force", "N", 3, {}};
   for (std::size_t b = 0; b < work.blocks.size() && work.nodes.momentum.size() > 0; ++b) {
     const BlockLayers<Dim>& layers = work.nodes.layers[b];
     for (std::size_t l = 0; l < layers.node.size(); ++l) {

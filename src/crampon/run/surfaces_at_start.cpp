@@ -17,8 +17,8 @@ namespace {
 
 /// What moves as one with a body: all bodies of its field and of those bonded to it, with their images in symmetry planes.
 template <int Dim>
-ShapePtr whole_of(const Problem& problem, const Model<Dim>& model, const std::vector<std::uint16_t>& joined, std::size_t body) {
-  std::vector<ShapePtr> parts;
+RegionPtr whole_of(const Problem& problem, const Model<Dim>& model, const std::vector<std::uint16_t>& joined, std::size_t body) {
+  std::vector<RegionPtr> parts;
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
     if (joined[b] == joined[body] && problem.bodies[b].shape) parts.push_back(problem.bodies[b].shape);
   }
@@ -34,7 +34,7 @@ ShapePtr whole_of(const Problem& problem, const Model<Dim>& model, const std::ve
 
 /// Where the nearest point of a body's own surface is a joint or lies on a symmetry plane: the nearest surface of the whole along an axis.
 template <int Dim>
-Vec<Dim> nearest_free(const Shape& whole, const Vec<Dim>& x, const Vec<Dim>& own, double reach, double slack) {
+Vec<Dim> nearest_free(const Region& whole, const Vec<Dim>& x, const Vec<Dim>& own, double reach, double slack) {
   Vec<3> from, end;
   for (std::size_t k = 0; k < Dim; ++k) from[k] = x[k], end[k] = x[k] + own[k] * (1 + slack / norm(own));
   if (whole.distance(end) > 0) return own;

@@ -18,14 +18,14 @@ Vec<3> vector_of(const std::vector<double>& components) {
 
 }  // namespace
 
-ShapePtr wall_shape(const WallInput& wall, int dimension) {
+RegionPtr wall_shape(const WallInput& wall, int dimension) {
   if (wall.kind == WallInput::Kind::half_space)
     return std::make_shared<HalfPlane>(vector_of(wall.point), vector_of(wall.normal), dimension);
   const Vec<3> centre = vector_of(wall.centre);
-  ShapePtr ball = std::make_shared<Sphere>(centre, wall.radius.value_or(0));
+  RegionPtr ball = std::make_shared<Sphere>(centre, wall.radius.value_or(0));
   if (dimension == 2) ball = std::make_shared<Disk>(Vec<2>{{centre[0], centre[1]}}, wall.radius.value_or(0));
   if (wall.kind == WallInput::Kind::ball) return ball;
-  return std::make_shared<Difference>(std::make_shared<Everywhere>(), std::vector<ShapePtr>{ball});
+  return std::make_shared<Difference>(std::make_shared<Everywhere>(), std::vector<RegionPtr>{ball});
 }
 
 }  // namespace crampon

@@ -159,12 +159,14 @@ struct Nodes {
   AlignedArray<NodalVector<Dim>> velocity;  ///< what the next stress update reads, m/s
   AlignedArray<MotionRecord<Dim>> motion;   ///< {v', a} of Task 4
   AlignedArray<ContactSums<Dim>> contact;
+  AlignedArray<Pack>
+      contact_gain;  ///< after Task 4: {what particles are to add to their memory of contact, 1} where there is contact, else 0
   AlignedArray<CrossingSums> crossing;
 
   std::size_t bytes() const {
     return tile_momentum.bytes() + tile_moment.bytes() + tile_piece.bytes() + arm.bytes() + piece.bytes() + tile_force.bytes() +
            tile_contact.bytes() + tile_crossing.bytes() + momentum.bytes() + force.bytes() + velocity.bytes() + motion.bytes() +
-           contact.bytes() + crossing.bytes();
+           contact.bytes() + contact_gain.bytes() + crossing.bytes();
   }
 };
 

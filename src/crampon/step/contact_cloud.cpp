@@ -55,9 +55,7 @@ void ContactCloud<Dim>::collect(const State<Dim>& state, const StepWork<Dim>& wo
                               if (of == Of::surface && is_deep(state, model, p)) continue;
                               for (int n = 0; n < T::stencil; ++n) {
                                 if (stencil.weight(n, l) < least_weight) continue;
-                                const PairTarget t = targets ? targets[l * T::stencil + n]
-                                                             : PairTarget{static_cast<std::uint16_t>(stencil.of.lowest(l) + T::steps[n]),
-                                                                          static_cast<std::uint8_t>(stencil.of.layer), 0};
+                                const PairTarget t = target_of<Dim, Shape>(stencil, targets, l, n);
                                 IndexVector<Dim> node = unflatten<Dim>(t.node, T::side);
                                 int local = 0;
                                 bool inside = true;

@@ -44,12 +44,10 @@ void for_face_forces(const State<Dim>& state, const StepWork<Dim>& work, const M
 template <int Dim, class Shape>
 void project_face_loads(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
                         NodalVector<Dim>* tiles) {
-  using T = Tile<Dim, Shape>;
   for_face_forces<Dim, Shape>(
       state, work, model, b,
       [&](std::uint32_t, const Stencil<Dim, Shape>& stencil, int l, const PairTarget* targets, int n, const NodalVector<Dim>& f) {
-        const PairTarget* pair = targets ? &targets[l * T::stencil + n] : nullptr;
-        tiles[pair ? pair->layer * T::nodes + pair->node : stencil.of.base[l] + T::steps[n]] += flipped(f, pair ? pair->flip : 0u);
+        at_target<Dim, Shape>(stencil, targets, l, n, tiles, [&](NodalVector<Dim>& q, unsigned flip) { q += flipped(f, flip); });
       });
 }
 

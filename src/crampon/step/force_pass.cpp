@@ -26,9 +26,9 @@ void project_rigid_motion(const State<Dim>& state, const StepWork<Dim>& work, co
                             NodalVector<Dim> f_p = splat_as<NodalVector<Dim>>(0.);
                             for (int k = 0; k < Dim; ++k) f_p[k] = f[k];
                             for (int n = 0; n < T::stencil; ++n) {
-                              const PairTarget* t = targets ? &targets[l * T::stencil + n] : nullptr;
-                              NodalVector<Dim>& q = tiles[t ? t->layer * T::nodes + t->node : stencil.of.base[l] + T::steps[n]];
-                              q = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), flipped(f_p, t ? t->flip : 0u), q);
+                              at_target<Dim, Shape>(stencil, targets, l, n, tiles, [&](NodalVector<Dim>& q, unsigned flip) {
+                                q = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), flipped(f_p, flip), q);
+                              });
                             }
                           }
                         });

@@ -105,6 +105,7 @@ void lay_out_nodes(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mod
   if (!several) return;
   nodes.tile_contact.resize_discarding(nodes.tile_slots * T::nodes);
   nodes.contact.resize_discarding(nodes.node_slots * block_nodes<Dim>);
+  if (state.particles.contact.size() > 0) nodes.contact_gain.resize_discarding(nodes.node_slots * block_nodes<Dim>);
   nodes.tile_crossing.resize_discarding(nodes.crossing_tile_slots * T::nodes);
   nodes.crossing.resize_discarding(nodes.crossing_node_slots * block_nodes<Dim>);
   for (std::size_t b = 0; b < blocks; ++b) {

@@ -14,7 +14,7 @@
 #include "crampon/core/options.hpp"
 #include "crampon/crack/symmetry_fold.hpp"
 #include "crampon/crack/traction/law.hpp"
-#include "crampon/geometry/shape.hpp"
+#include "crampon/geometry/region.hpp"
 #include "crampon/material/material_law.hpp"
 #include "crampon/shape/registry.hpp"
 #include "crampon/shape/stencil.hpp"
@@ -41,7 +41,7 @@ struct RigidBody {
   std::vector<ValueFunction> velocity;  ///< of its centre, per component, m/s; of time; empty: none
   std::vector<ValueFunction> spin;      ///< about its centre, rad/s: one in 2D, three in 3D; of time; empty: none
   Vec<Dim> centre;                      ///< at the start, m
-  ShapePtr shape;                       ///< as it was at the start
+  RegionPtr shape;                      ///< as it was at the start
   std::uint16_t field = 0;              ///< its velocity field
   /// face: meets others at the face of its shape. particles: as a field of particles among others (N13 sec. 3). nodes: gives its velocity to
   /// the nodes in its shape, instead of meeting what is there.
@@ -95,7 +95,7 @@ struct Model {
   /// By number of a particle: from its middle at the start to the nearest point of its body's surface, m. Zero: deep in its body; not a number:
   /// nobody knows (particles from a file). Kept where rigid faces or outlines ask for it.
   std::vector<Vec<Dim>> surface;
-  std::vector<ShapePtr> shapes;  ///< of bodies, as they were at the start; null: nobody knows
+  std::vector<RegionPtr> shapes;  ///< of bodies, as they were at the start; null: nobody knows
   /// By number of a particle: columns of the inverse of its deformation gradient at the start; empty where none bears stress from the start.
   std::vector<std::array<Vec<Dim>, Dim>> undeformed;
   std::vector<std::string> bodies;

@@ -58,14 +58,14 @@ void stretch_domains(Particles<Dim>& particles, std::uint32_t pack, const Pack* 
 /// Particles take up what the nodes in contact beside them have gained: the mean over those nodes.
 template <int Dim, class Shape>
 void remember_contact(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
-  const ContactSums<Dim>* gains = gathered<Dim, Shape>(work, b, work.nodes.contact);
+  const Pack* gains = gathered<Dim, Shape, &Nodes<Dim>::contact_gain>(work, b);
   for_packs<Dim, Shape>(state, work, model, b,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, const Run&) {
                           for (int l = 0; l < lanes; ++l) {
                             double gain = 0, weight = 0;
-                            for_stencil<Dim, Shape>(stencil, targets, l, gains, [&](const ContactSums<Dim>& c, int n, const PairTarget&) {
-                              gain += stencil.weight(n, l) * c.r[0][0];
-                              weight += stencil.weight(n, l) * c.r[0][1];
+                            for_stencil<Dim, Shape>(stencil, targets, l, gains, [&](Pack at_node, int n, const PairTarget&) {
+                              gain += stencil.weight(n, l) * at_node[0];
+                              weight += stencil.weight(n, l) * at_node[1];
                             });
                             if (weight > 0) state.particles.contact[std::size_t{pack} * lanes + l] += gain / weight;
                           }
@@ -79,7 +79,7 @@ void move_block(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model,
   Particles<Dim>& particles = state.particles;
   if (particles.contact.size() > 0 && work.nodes.layers[b].sums_contact) remember_contact<Dim, Shape>(state, work, model, b);
   if (accelerate == Accelerate::now) take_up_couples(state, work, model, b, dt);
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(work, b, work.nodes.motion);
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape, &Nodes<Dim>::motion>(work, b);
   const Advance<Dim> advance(dt, accelerate == Accelerate::now ? dt : 0.);
   const PairOffsets<Dim>& offsets = work.nodes.layers[b].offsets;
   Vec<Dim>* moved_with = particles.watched ? particles.moved_with.data() : nullptr;
@@ -106,7 +106,7 @@ void move_block(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model,
     low = lowest, high = highest, fastest = speed, check = bad;
   };
   const NodalVector<Dim>* end_velocity =
-      Shape::has_domains || strain == Strain::now ? gathered<Dim, Shape>(work, b, work.nodes.velocity) : nullptr;
+      Shape::has_domains || strain == Strain::now ? gathered<Dim, Shape, &Nodes<Dim>::velocity>(work, b) : nullptr;
   const auto walk = [&](const auto& visit) {
     if (strain == Strain::now) {
       update_stress<Dim, Shape>(state, work, model, b, work.now.stress_dt, end_velocity, offsets.end, visit);

@@ -185,6 +185,23 @@ inline void scatter_records(const Stencil<Dim, Shape>& s, const PairTarget* targ
   }
 }
 
+/// Where the pair of the particle in lane l with node n of its stencil goes.
+template <int Dim, class Shape>
+inline PairTarget target_of(const Stencil<Dim, Shape>& s, const PairTarget* targets, int l, int n) {
+  using T = Tile<Dim, Shape>;
+  if (targets) return targets[l * T::stencil + n];
+  return {static_cast<std::uint16_t>(s.of.lowest(l) + T::steps[n]), static_cast<std::uint8_t>(s.of.layer), 0};
+}
+
+/// Adds to the record of a tile at which the pair of the particle in lane l with node n of its stencil ends, all layers one after another:
+/// f(record, components that change sign there).
+template <int Dim, class Shape, class Record, class F>
+inline void at_target(const Stencil<Dim, Shape>& s, const PairTarget* targets, int l, int n, Record* tiles, F&& f) {
+  using T = Tile<Dim, Shape>;
+  const PairTarget* pair = targets ? &targets[l * T::stencil + n] : nullptr;
+  f(tiles[pair ? pair->layer * T::nodes + pair->node : s.of.base[l] + T::steps[n]], pair ? pair->flip : 0u);
+}
+
 /// The same for momenta (N03 Eq. 26: the record is {m v, m}); offsets: of the time that v belongs to.
 template <int Dim, class Shape>
 inline void scatter(const Stencil<Dim, Shape>& s, const PairTarget* targets, const Pack* offsets, const Pack* record, Pack* tiles) {

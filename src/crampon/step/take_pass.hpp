@@ -33,7 +33,7 @@ void take_velocity(Particles<Dim>& particles, std::size_t p, const MotionRecord<
 template <int Dim, class Shape, class Then>
 [[gnu::always_inline]] inline void for_taken(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b,
                                              const VelocityRule& rule, Then&& then) {
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(work, b, work.nodes.motion);
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape, &Nodes<Dim>::motion>(work, b);
   const auto& offsets = work.nodes.layers[b].offsets.motion;
   BlockLedger<Dim>& ledger = work.scratch[b].ledger;
   take_up_couples(state, work, model, b, rule.dt);

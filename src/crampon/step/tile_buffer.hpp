@@ -1,12 +1,16 @@
 #pragma once
+#include <type_traits>
+
 #include "crampon/step/assemble.hpp"
 
 namespace crampon {
 
-/// A thread's own copy of nodal records over a block's tile, all layers.
-template <int Dim, class Shape, class Record>
-const Record* gathered(const StepWork<Dim>& work, std::size_t block, const AlignedArray<Record>& nodes) {
-  static thread_local AlignedArray<Record> buffer;
+/// A thread's own copy of a nodal array (a member of Nodes) over a block's tile, all layers. It holds until the thread gathers the same array of
+/// another block.
+template <int Dim, class Shape, auto array>
+const auto* gathered(const StepWork<Dim>& work, std::size_t block) {
+  const auto& nodes = work.nodes.*array;
+  static thread_local std::remove_cvref_t<decltype(nodes)> buffer;
   const int layers = static_cast<int>(work.nodes.layers[block].tile.size());
   buffer.resize_discarding(static_cast<std::size_t>(layers) * Tile<Dim, Shape>::nodes);
   for (int l = 0; l < layers; ++l) gather_layer<Dim, Shape>(work, block, l, nodes, buffer.data() + l * Tile<Dim, Shape>::nodes);

@@ -18,9 +18,9 @@ void project_particle_loads(const State<Dim>& state, const StepWork<Dim>& work, 
         NodalVector<Dim> f_p = splat_as<NodalVector<Dim>>(0.);
         for (int k = 0; k < Dim; ++k) f_p[k] = model.loads[loaded.load].share[loaded.entry] * work.prescribed.loads[loaded.load][k];
         for (int n = 0; n < T::stencil; ++n) {
-          const PairTarget* pair = targets ? &targets[l * T::stencil + n] : nullptr;
-          NodalVector<Dim>& q = tiles[pair ? pair->layer * T::nodes + pair->node : stencil.of.base[l] + T::steps[n]];
-          q = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), flipped(f_p, pair ? pair->flip : 0u), q);
+          at_target<Dim, Shape>(stencil, targets, l, n, tiles, [&](NodalVector<Dim>& q, unsigned flip) {
+            q = fused(splat_as<NodalVector<Dim>>(stencil.weight(n, l)), flipped(f_p, flip), q);
+          });
         }
       });
 }

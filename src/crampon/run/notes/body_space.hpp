@@ -16,7 +16,7 @@ template <int Dim>
 class BodySpace {
  public:
   /// stated, shape: of the input; shape may be null. Particles are added afterwards.
-  BodySpace(std::string name, const Located& stated, ShapePtr shape, const Grid<Dim>& grid)
+  BodySpace(std::string name, const Located& stated, RegionPtr shape, const Grid<Dim>& grid)
       : name_(std::move(name)), stated_(&stated), shape_(std::move(shape)), grid_(&grid) {}
 
   /// slot: of the particle; half: half the edges of its box, m; measure: area (m2) or volume (m3).
@@ -25,7 +25,7 @@ class BodySpace {
 
   const std::string& name() const { return name_; }
   const Located& stated() const { return *stated_; }
-  const ShapePtr& shape() const { return shape_; }
+  const RegionPtr& shape() const { return shape_; }
   std::uint16_t field() const { return field_; }  ///< velocity field
 
   struct Particle {
@@ -50,7 +50,7 @@ class BodySpace {
 
   std::string name_;
   const Located* stated_;
-  ShapePtr shape_;
+  RegionPtr shape_;
   const Grid<Dim>* grid_;
   std::vector<Particle> particles_;
   double measure_ = 0;

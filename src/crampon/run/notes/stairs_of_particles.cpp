@@ -11,7 +11,7 @@ namespace {
 constexpr double worth_a_word = 0.01;  // of the measure: forces on the body's faces are off by as much
 
 template <int Dim>
-bool lies_in(const Shape& shape, const Grid<Dim>& grid) {
+bool lies_in(const Region& shape, const Grid<Dim>& grid) {
   const Bounds3 box = shape.bounds();
   Vec<Dim> low, high;
   for (std::size_t k = 0; k < Dim; ++k) low[k] = box.low[k], high[k] = box.high[k];

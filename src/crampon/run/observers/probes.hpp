@@ -66,7 +66,7 @@ class Probes final : public Observer<Dim> {
   };
   struct Measured {
     std::vector<double> ids;
-    Field field;
+    DataArray field;
   };
 
   static std::string suffix(int components, int k) {

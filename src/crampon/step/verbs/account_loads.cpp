@@ -9,7 +9,7 @@ template <int Dim, class Shape>
 void account_loads(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
   const double dt = work.now.dt;
   if (!bears_loads(work.scratch[b])) return;
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(work, b, work.nodes.motion);
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape, &Nodes<Dim>::motion>(work, b);
   const double share = model.transfer_in(state.clock.step).re_extrapolates ? 0.5 : 1.;  // account_loads_anew adds the other half
   double power = 0;
   for_touched<Dim, Shape>(work, b, [&](std::size_t i) {

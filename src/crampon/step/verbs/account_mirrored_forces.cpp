@@ -37,7 +37,7 @@ void account_mirrored_forces(State<Dim>& state, StepWork<Dim>& work, const Model
   const Particles<Dim>& particles = state.particles;
   const PairOffsets<Dim>& offsets = work.nodes.layers[b].offsets;
   BlockLedger<Dim>& ledger = work.scratch[b].ledger;
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(work, b, work.nodes.motion);
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape, &Nodes<Dim>::motion>(work, b);
   const HeldNodes<Dim, Shape> held(work, model, b);
   const PairFolder<Dim, Shape> folder(model, held);
   const auto first_node = work.blocks.list[b].first_node();

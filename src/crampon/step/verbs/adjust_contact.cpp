@@ -56,15 +56,14 @@ void find_drift(ContactGroup<Dim>* groups, const ContactPair<Dim>* pairs, int pa
   }
 }
 
-/// What particles are to add to their memory of contact waits on the nodes (forget_gains in step/verbs/start_meeting_faces.cpp): {gain, 1} where
-/// there is contact.
+/// What particles are to add to their memory of contact waits on the nodes until they move (step/move_pass.cpp).
 template <int Dim>
 void put_gain(StepWork<Dim>& work, std::size_t b, const ContactNode<Dim>& node, const ContactPair<Dim>& pair) {
   if (!pair.law->needs_history() || (pair.state == ContactState::open && !holds_as_interface(pair))) return;
   const ContactNodes<Dim>& contacts = work.scratch[b].contact;
   for (std::uint32_t f = node.first_field; f < node.end_field; ++f) {
     if (pair.a & only(contacts.fields[f].group))
-      work.nodes.contact[work.nodes.layers[b].slot(contacts.fields[f].layer, node.node)].r[0] = Pack{pair.history_gain, 1., 0., 0.};
+      work.nodes.contact_gain[work.nodes.layers[b].slot(contacts.fields[f].layer, node.node)] = Pack{pair.history_gain, 1., 0., 0.};
   }
 }
 

@@ -73,7 +73,7 @@ class FaceFinder {
       part.gradient += sums.gradient();
       part.history += sums.history();
       part.known_as = std::min(part.known_as, model_.contact.fields[layer.field].bonded_to);
-      part.cracks = without_joined(layer.cracks, model_.contact);
+      part.cracks = without_bonded(layer.cracks, model_.contact);
       if (sums.volume() > most) most = sums.volume(), part.field = layer.field;
     }
     group.end_slot = static_cast<std::uint32_t>(out_.slots.size());

@@ -231,8 +231,7 @@ double close_pair(State<Dim>& state, StepWork<Dim>& work, ContactColumn<Dim>& co
   return 0;
 }
 
-/// What particles are to add to their memory of contact waits on the nodes (forget_gains in step/verbs/start_meeting_faces.cpp): {gain, 1} where
-/// there is contact.
+/// What particles are to add to their memory of contact waits on the nodes until they move (step/move_pass.cpp).
 template <int Dim>
 void put_gain(StepWork<Dim>& work, const ContactColumn<Dim>& column) {
   if (!column.pair.law->needs_history() || column.pair.state == ContactState::open) return;
@@ -241,7 +240,7 @@ void put_gain(StepWork<Dim>& work, const ContactColumn<Dim>& column) {
     const FaceNodes<Dim>& nodes = work.scratch[at.block].face_nodes;
     const FaceGroup<Dim>& group = nodes.groups[nodes.parts[at.part].group];
     for (std::uint32_t k = group.first_slot; k < group.end_slot; ++k)
-      work.nodes.contact[nodes.slots[k]].r[0] = Pack{column.pair.history_gain, 1., 0., 0.};
+      work.nodes.contact_gain[nodes.slots[k]] = Pack{column.pair.history_gain, 1., 0., 0.};
   }
 }
 

@@ -115,9 +115,7 @@ void project_contact_sums(State<Dim>& state, StepWork<Dim>& work, const Model<Di
           const Vec<Dim> x_p = particles.position(p), X_p = particles.original[p];
           const auto lowest = unflatten<Dim>(stencil.of.lowest(l), T::side);
           for (int n = 0; n < T::stencil; ++n) {
-            const PairTarget t = targets ? targets[l * T::stencil + n]
-                                         : PairTarget{static_cast<std::uint16_t>(stencil.of.lowest(l) + T::steps[n]),
-                                                      static_cast<std::uint8_t>(stencil.of.layer), 0};
+            const PairTarget t = target_of<Dim, Shape>(stencil, targets, l, n);
             if (!shared.at(t.node)) continue;
             IndexVector<Dim> node = unflatten<Dim>(n, Shape::width);
             Vec<Dim> G;

@@ -8,12 +8,11 @@ namespace crampon {
 
 namespace {
 
-/// What particles are to add to their memory of contact waits on the nodes in the place of the contact sums, which have done their work:
-/// {gain, 1} where there is contact, else zeros.
+/// No node has anything yet for particles to add to their memory of contact.
 template <int Dim>
 void forget_gains(StepWork<Dim>& work, std::size_t b) {
   const std::size_t count = work.nodes.layers[b].node.size() * block_nodes<Dim>;
-  for (std::size_t i = 0; i < count; ++i) work.nodes.contact[work.nodes.layers[b].slot(0, 0) + i].r[0] = splat(0.);
+  for (std::size_t i = 0; i < count; ++i) work.nodes.contact_gain[work.nodes.layers[b].slot(0, 0) + i] = splat(0.);
 }
 
 }  // namespace

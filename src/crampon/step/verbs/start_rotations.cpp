@@ -112,7 +112,7 @@ class PieceSearch {
     for (std::size_t f = 0; f < facets.size() && !whole;) {
       std::size_t end = f;
       while (end < facets.size() && facets[end].crack == facets[f].crack) ++end;
-      const bool bonded = model_.contact.law_across(facets[f].crack).joins();
+      const bool bonded = model_.contact.law_across(facets[f].crack).bonds();
       if (!bonded && cross_crack<Dim>(work_.crack_view.meshes[facets[f].crack], facets.subspan(f, end - f), x, y).crosses()) return;
       f = end;
     }

@@ -27,7 +27,7 @@ void update_velocities_and_project(State<Dim>& state, StepWork<Dim>& work, const
   const double dt = work.now.dt;
   if (!work.blocks.list[b].has_particles()) return;
   take_up_couples(state, work, model, b, dt);
-  const MotionRecord<Dim>* motion = gathered<Dim, Shape>(work, b, work.nodes.motion);
+  const MotionRecord<Dim>* motion = gathered<Dim, Shape, &Nodes<Dim>::motion>(work, b);
   Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_momentum);
   Particles<Dim>& particles = state.particles;
   const PairOffsets<Dim>& offsets = work.nodes.layers[b].offsets;

@@ -22,7 +22,7 @@ class DeformationNow {
         model_(model),
         block_(b),
         stress_dt_(Shape::has_domains || !updates_stress_first(model) ? 0. : work.now.stress_dt) {
-    if (stress_dt_ > 0) velocity_ = gathered<Dim, Shape>(work, b, work.nodes.velocity);
+    if (stress_dt_ > 0) velocity_ = gathered<Dim, Shape, &Nodes<Dim>::velocity>(work, b);
   }
   /// F[d * Dim + k]
   void find(std::size_t pack, std::size_t of_material, const Stencil<Dim, Shape>& stencil, const PairTarget* targets, Pack* F) const {

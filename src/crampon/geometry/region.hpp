@@ -14,9 +14,9 @@ struct Bounds3 {
 };
 
 /// A closed set of points in the plane (2D: z is ignored) or in space. In space a plane shape is the infinite prism over it.
-class Shape {
+class Region {
  public:
-  virtual ~Shape() = default;
+  virtual ~Region() = default;
   /// Signed distance from x (m) to the boundary, m: negative inside, positive outside, zero on the boundary. Exact for single shapes; in
   /// combinations never further from zero than the exact one. It changes by no more than the way x moves: searches may skip whole balls.
   virtual double distance(const Vec<3>& x) const = 0;
@@ -34,6 +34,6 @@ class Shape {
   /// 2: given in the plane; 3: given in space; 0: either (everywhere).
   virtual int dimension() const { return 2; }
 };
-using ShapePtr = std::shared_ptr<const Shape>;
+using RegionPtr = std::shared_ptr<const Region>;
 
 }  // namespace crampon
