@@ -16,6 +16,7 @@ FLAGS = ["-std=c++20", "-w", "-I", str(SOURCE)]
 # member: (its lines, words that the first error must hold when it is missing)
 MATERIAL = {
     "name": ('static constexpr const char* name = "broken";', "static constexpr const char* name"),
+    "strain_measure": ('static constexpr const char* strain_measure = "U - I";', "static constexpr const char* strain_measure"),
     "declaration": ("static const Declaration<Law>& declaration();", "static const Declaration<Law>& declaration()"),
     "example": ("static Law example() { return {}; }", "static Law example()"),
     "density": ("double density = 0;", "double density"),

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "crampon/input/schema.hpp"
+#include "crampon/run/output_reference.hpp"
 
 namespace crampon::app {
 
 int schema_command() {
-  fmt::print("{}", json_schema());
+  fmt::print("{}", json_schema(output_words()));
   return exit_ok;
 }
 

@@ -23,6 +23,7 @@ struct Toy {
   double density = 0;       ///< kg/m3
 
   static constexpr const char* name = "toy";
+  static constexpr const char* strain_measure = "toy strain (J - 1) I";
   static const Declaration<Toy>& declaration() {
     static const auto d =
         Declaration<Toy>(name, "A viscous liquid that exists in a test.")
@@ -258,6 +259,7 @@ shape = { kind = "rectangle", low = [0.21, 0.04], high = [0.23, 0.2] }
     EXPECT_EQ(std::isnan(field(frame, "toy_strain").values[6 * i + 3]), body[i] == 1);
   }
   const std::string page = output_reference_page();
+  EXPECT_NE(page.find("| `toy` | `toy strain (J - 1) I` |"), std::string::npos);
   EXPECT_NE(page.find("| `toy_heat` | J/m3 |  |  | `toy` | heat that the toy has made, per initial volume |"), std::string::npos);
 }
 

@@ -8,6 +8,8 @@
 #include <set>
 #include <stdexcept>
 
+#include <nlohmann/json.hpp>
+
 #include "crampon/run/observers/registry.hpp"
 #include "crampon/run/output_reference.hpp"
 #include "crampon/run/quantities.hpp"
@@ -102,6 +104,22 @@ TEST(ToyOutput, IsReadAndCheckedAsAnyOther) {
   const std::string from = "quantity = \"toy_liveliness\"";
   text.replace(text.find(from), from.size(), "quantity = \"toy_livelines\"");
   EXPECT_THROW(make(text), InputError);
+}
+
+TEST(ToyOutput, IsOfferedByTheSchema) {
+  const auto schema = nlohmann::json::parse(json_schema(output_words()))["properties"];
+  const auto offers = [](const nlohmann::json& text, const char* word) {
+    const auto& words = text["anyOf"][0]["enum"];
+    return std::count(words.begin(), words.end(), word);
+  };
+  EXPECT_EQ(offers(schema["output"]["properties"]["quantities"]["anyOf"][1]["items"], "toy_liveliness"), 1);
+  EXPECT_EQ(offers(schema["probe"]["items"]["properties"]["quantity"], "toy_liveliness"), 1);
+  EXPECT_EQ(offers(schema["probe"]["items"]["properties"]["quantity"], "plastic_strain"), 1);
+  const auto& expect = schema["expect"]["items"]["properties"];
+  EXPECT_EQ(offers(expect["quantity"], "toy_liveliness"), 1);
+  EXPECT_EQ(offers(expect["column"], "toy_centre_x"), 1);
+  EXPECT_EQ(offers(expect["column"], "energy_closure"), 1);
+  EXPECT_EQ(offers(expect["column"], "toy_centre_AXIS"), 0);
 }
 
 TEST(ToyOutput, StandsOnTheReferencePage) {

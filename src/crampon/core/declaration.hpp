@@ -186,6 +186,12 @@ class Declaration : public Record {
     return *this;
   }
 
+  /// The words that the text just declared may hold are listed elsewhere: editors are offered that list (json_schema() in input/schema.hpp).
+  Declaration& words_from(std::string list) {
+    last_entry().words = std::move(list);
+    return *this;
+  }
+
   /// The key just declared and `keys` contradict each other: giving both is an error.
   Declaration& excludes(const std::vector<std::string>& keys) {
     last_entry().excludes = keys;

@@ -116,6 +116,7 @@ struct Entry {
   Length length;
   std::vector<std::string> choices;
   std::vector<std::string> excludes;  ///< keys of the record that contradict this one
+  std::string words;                  ///< text: the list that knows its words, as json_schema() is told; empty: none
   bool file = false;                  ///< text: the path of a file that must exist, relative to the input
   bool name = false;                  ///< text: unique among its siblings; left out: numbered, "crack1", "crack2"
 

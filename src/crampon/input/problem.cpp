@@ -310,6 +310,7 @@ const Declaration<ProbeInput>& probe_declaration() {
       Declaration<ProbeInput>("probe", "History columns of the particle that is nearest to a point at the start.")
           .name("name", &ProbeInput::name, "what the columns are called")
           .text("quantity", &ProbeInput::quantity, "particle quantity, as in the output", required)
+          .words_from("particle quantities")
           .quantities("point", &ProbeInput::point, "m", Bounds::any(), "where the particle is sought", required, two_or_three)
           .text("body", &ProbeInput::body, "only particles of this body; empty: all");
   return d;
@@ -326,6 +327,7 @@ const Declaration<OutputInput>& output_declaration() {
                             .integer("history_steps", &OutputInput::history_steps, Bounds::at_least(1), "steps between history rows")
                             .excludes({"history_every"})
                             .text("quantities", &OutputInput::quantities, "particle quantities to write; left out: the common ones")
+                            .words_from("particle quantities")
                             .flag("full_precision", &OutputInput::full_precision, "64-bit instead of 32-bit numbers")
                             .flag("grid", &OutputInput::grid, "also write the nodes with mass, momentum and force of each velocity field")
                             .check([](const OutputInput& in, Diagnostics& diagnostics) {
@@ -343,7 +345,9 @@ const Declaration<ExpectInput>& expect_declaration() {
       Declaration<ExpectInput>("expect", "A number that the run must reproduce; crampon check compares.")
           .name("name", &ExpectInput::name, "what the table calls it")
           .text("column", &ExpectInput::column, "column of history.csv without its unit; either column or quantity")
+          .words_from("history columns")
           .text("quantity", &ExpectInput::quantity, "particle quantity at point, in the last frame or the one nearest to time")
+          .words_from("particle quantities")
           .excludes({"column"})
           .quantities("point", &ExpectInput::point, "m", Bounds::any(), "quantity: where", Presence::optional, two_or_three)
           .quantity("time", &ExpectInput::time, "s", Bounds::non_negative(), "when; left out: at the end")

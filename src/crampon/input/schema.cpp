@@ -63,6 +63,8 @@ struct DefaultToJson {
 
 class SchemaWriter {
  public:
+  explicit SchemaWriter(const KnownWords& known) : known_(known) {}
+
   Json write(const Record& root) {
     Json schema = {{"$schema", "http://json-schema.org/draft-04/schema#"}, {"title", "Crampon input"}};
     schema.update(record_schema(root));
@@ -73,7 +75,15 @@ class SchemaWriter {
   }
 
  private:
+  const KnownWords& known_;
   std::map<std::string, Json> definitions_;
+
+  Json text_schema(const Entry& entry) const {
+    Json text = {{"type", "string"}};
+    const auto words = known_.find(entry.words);
+    if (words == known_.end()) return text;
+    return {{"anyOf", Json::array({Json{{"enum", words->second}}, std::move(text)})}};
+  }
 
   static Json function_schema() {
     Json table = {{"type", "object"}, {"additionalProperties", false}};
@@ -178,9 +188,9 @@ class SchemaWriter {
       case Kind::flag:
         return {{"type", "boolean"}};
       case Kind::text:
-        return {{"type", "string"}};
+        return text_schema(entry);
       case Kind::texts:
-        return one_or_array({{"type", "string"}}, entry.length);
+        return one_or_array(text_schema(entry), entry.length);
       case Kind::choice:
         return {{"enum", entry.choices}};
       // A $ref must stand alone in Draft 4; allOf lets a description stand beside it.
@@ -219,7 +229,7 @@ class SchemaWriter {
 
 }  // namespace
 
-std::string json_schema() { return json_schema(problem_declaration()); }
-std::string json_schema(const Record& root) { return SchemaWriter().write(root).dump(2) + "\n"; }
+std::string json_schema(const KnownWords& known) { return json_schema(problem_declaration(), known); }
+std::string json_schema(const Record& root, const KnownWords& known) { return SchemaWriter(known).write(root).dump(2) + "\n"; }
 
 }  // namespace crampon

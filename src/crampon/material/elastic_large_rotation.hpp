@@ -17,6 +17,7 @@ struct ElasticLargeRotation {
   double density = 0;  ///< kg/m3
 
   static constexpr const char* name = "elastic_large_rotation";
+  static constexpr const char* strain_measure = "U - I";
   static const Declaration<ElasticLargeRotation>& declaration();
   /// Steel.
   static ElasticLargeRotation example() { return {210e9, 0.3, 7850}; }

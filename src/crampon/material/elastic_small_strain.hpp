@@ -14,6 +14,7 @@ struct ElasticSmallStrain {
   double density = 0;  ///< kg/m3
 
   static constexpr const char* name = "elastic_small_strain";
+  static constexpr const char* strain_measure = "sum of (grad v + grad v^T) dt / 2";
   static const Declaration<ElasticSmallStrain>& declaration();
   /// Steel.
   static ElasticSmallStrain example() { return {210e9, 0.3, 7850}; }

@@ -23,6 +23,7 @@ struct J2Plasticity {
   double density = 0;            ///< kg/m3
 
   static constexpr const char* name = "j2_plasticity";
+  static constexpr const char* strain_measure = "ln(F F^T) / 2";
   static const Declaration<J2Plasticity>& declaration();
   /// Structural steel.
   static J2Plasticity example() { return {210e9, 0.3, 250e6, 1e9, 7850}; }

@@ -2,6 +2,7 @@
 /// What a struct must have to be a material law. A member that is missing or has another form is named by the first error of the compiler.
 
 #include <concepts>
+#include <string_view>
 
 #include "crampon/core/declared.hpp"
 #include "crampon/material/law_variable.hpp"
@@ -13,6 +14,10 @@ namespace law_contract {
 
 // One concept a member, so that an error can name it. Nothing has a default: a default that a new law forgets to change is a wrong answer without
 // a word.
+template <class Law>
+concept says_what_its_strain_is = requires {
+  std::string_view(Law::strain_measure);
+};
 template <class Law>
 concept has_example = requires {
   { Law::example() } -> std::same_as<Law>;
@@ -79,6 +84,8 @@ constexpr bool variables_fit() {
 template <class Law>
 struct MaterialLawContract {
   static_assert(declared::has_name<Law>, "a material law needs: static constexpr const char* name = \"...\";");
+  static_assert(law_contract::says_what_its_strain_is<Law>,
+                "a material law needs: static constexpr const char* strain_measure = \"...\"; the formula of the strain that it reports");
   static_assert(declared::has_declaration<Law>,
                 "a material law needs: static const Declaration<Law>& declaration(); it says which parameters the input may give");
   static_assert(law_contract::has_example<Law>,

@@ -31,6 +31,7 @@ class MaterialLaw {
  public:
   virtual ~MaterialLaw() = default;
   virtual std::string name() const = 0;
+  virtual std::string strain_measure() const = 0;     ///< the formula of the strain that it reports
   virtual double density() const = 0;                 ///< kg/m3, initial
   virtual double wave_speed(StressState) const = 0;   ///< m/s, fastest, undeformed
   virtual int history_size(int dimension) const = 0;  ///< Packs per pack
@@ -78,6 +79,7 @@ class LawKernel final : public MaterialLaw {
  public:
   explicit LawKernel(const Law& law) : law_(law) {}
   std::string name() const override { return Law::name; }
+  std::string strain_measure() const override { return Law::strain_measure; }
   double density() const override { return law_.density; }
   double wave_speed(StressState s) const override { return law_.wave_speed(s); }
   int history_size(int dimension) const override { return dimension == 2 ? Law::template history_size<2> : Law::template history_size<3>; }

@@ -15,6 +15,7 @@ struct NeoHookean {
   double density = 0;  ///< kg/m3
 
   static constexpr const char* name = "neo_hookean";
+  static constexpr const char* strain_measure = "(F F^T - I) / 2";
   static const Declaration<NeoHookean>& declaration();
   /// Rubber.
   static NeoHookean example() { return {1e6, 0.45, 1000}; }

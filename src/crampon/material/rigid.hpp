@@ -9,6 +9,7 @@ namespace crampon {
 class RigidMaterial final : public MaterialLaw {
  public:
   std::string name() const override { return "rigid"; }
+  std::string strain_measure() const override { return "0"; }
   double density() const override { return 1; }
   double wave_speed(StressState) const override { return 0; }
   int history_size(int) const override { return 0; }

@@ -34,11 +34,16 @@ std::string code(const std::string& text) { return text.empty() ? "" : "`" + tex
 
 std::string components_text(int components) { return components == 3 ? "x, y, z" : components == 6 ? "xx, yy, zz, xy, yz, xz" : ""; }
 
+std::vector<const MaterialLaw*> pointers_to(const std::vector<MaterialSpec>& specs) {
+  std::vector<const MaterialLaw*> laws;
+  for (const MaterialSpec& law : specs) laws.push_back(law.get());
+  return laws;
+}
+
 /// Of each variable that laws declare, with the laws that do.
 std::string law_variables_table() {
-  std::vector<const MaterialLaw*> laws;
   const std::vector<MaterialSpec> examples = material_examples();
-  for (const MaterialSpec& law : examples) laws.push_back(law.get());
+  const std::vector<const MaterialLaw*> laws = pointers_to(examples);
   std::string out = "| quantity | unit | components | by default | laws | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
   for (const ParticleQuantity& q : quantities_of_laws(laws)) {
     std::string of;
@@ -52,6 +57,25 @@ std::string law_variables_table() {
 }
 
 }  // namespace
+
+KnownWords output_words() {
+  KnownWords words;
+  std::vector<std::string>& quantities = words["particle quantities"];
+  for (const ParticleQuantity& q : general_quantities()) quantities.push_back(q.name);
+  const std::vector<MaterialSpec> examples = material_examples();
+  for (const ParticleQuantity& q : quantities_of_laws(pointers_to(examples))) quantities.push_back(q.name);
+  std::vector<std::string>& columns = words["history columns"];
+  for (const ColumnDescription& column : describe_history_columns()) {
+    const std::string& pattern = column.pattern;
+    if (pattern.find("NAME") != std::string::npos || pattern.find("PROBE") != std::string::npos) continue;
+    const std::size_t axis = pattern.find("AXIS");
+    for (const char* each : {"x", "y", "z"}) {
+      columns.push_back(axis == std::string::npos ? pattern : std::string(pattern).replace(axis, 4, each));
+      if (axis == std::string::npos) break;
+    }
+  }
+  return words;
+}
 
 const ColumnDescription* find_description(const std::string& column) {
   const ColumnDescription* of_probes = nullptr;
@@ -79,6 +103,8 @@ std::string output_reference_page() {
   for (const ParticleQuantity& q : general_quantities())
     out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(q.name), q.unit, components_text(q.components), q.common ? "yes" : "",
                        q.help, code(q.formula));
+  out += "\nLaws measure strain in different ways:\n\n| law | strain |\n| --- | --- |\n";
+  for (const MaterialSpec& law : material_examples()) out += fmt::format("| {} | {} |\n", code(law->name()), code(law->strain_measure()));
   out += "\nVariables of material laws are quantities too where a body is made of such a law. Particles of other laws hold nan.\n\n" +
          law_variables_table();
   out +=
