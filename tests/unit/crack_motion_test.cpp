@@ -328,7 +328,7 @@ TYPED_TEST(CrackMotion, TractionsPullAgainstTheGapAndGiveNodesNoForceInAll) {
 
   // Both sides of a vertex are at one place now, and so are the forces on them: they make no couple either.
   spread_tractions<Dim, LinearShape>(s.state, s.work, s.model);
-  std::fill(s.work.nodes.force.begin(), s.work.nodes.force.end(), NodalVector<Dim>{});
+  std::fill(s.work.nodes.force.nodes.begin(), s.work.nodes.force.nodes.end(), NodalVector<Dim>{});
   for (std::size_t b = 0; b < s.work.blocks.size(); ++b) add_tractions(s.work, b);
   Vec<Dim> force;
   std::array<Vec<Dim>, Dim> moment{};

@@ -151,8 +151,8 @@ struct CrackedSolid {
     }
     work.nodes.layers.resize(total);
     for (std::size_t b = 0; b < total; ++b) work.nodes.layers[b].node_begin = static_cast<std::uint32_t>(b);
-    work.nodes.momentum.resize_discarding(total * block_nodes<Dim>);
-    work.nodes.force.resize_discarding(total * block_nodes<Dim>);
+    work.nodes.momentum.nodes.resize_discarding(total * block_nodes<Dim>);
+    work.nodes.force.nodes.resize_discarding(total * block_nodes<Dim>);
     work.scratch.resize(total);
   }
 

@@ -233,8 +233,8 @@ class ProblemChecker {
     std::map<std::string, std::string> known;
     const auto check = [&](const Located& record, const std::string& name, const char* kind) {
       if (name.empty() || broken(record)) return;
-      const auto [at, fresh] = known.try_emplace(name, kind);
-      if (!fresh && at->second != kind)
+      const auto [at, is_new] = known.try_emplace(name, kind);
+      if (!is_new && at->second != kind)
         add(record, "name", fmt::format("the name \"{}\" is taken", name), fmt::format("a [[{}]] has it", at->second), "choose another");
     };
     for (const BodyInput& body : problem_.bodies) known.try_emplace(body.name, "body");

@@ -203,8 +203,8 @@ class BodyBuilder {
 
   std::uint32_t material_of(const BodyInput& body, const std::array<int, Dim>& per_cell, std::uint16_t field) {
     const auto key = std::tuple{body.material, body.thickness, per_cell, field};
-    const auto [at, fresh] = known_.try_emplace(key, static_cast<std::uint32_t>(out_.materials.size()));
-    if (fresh) {
+    const auto [at, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(out_.materials.size()));
+    if (is_new) {
       for (const MaterialInput& in : problem_.materials) {
         if (in.name == body.material) add_material(in.law, body, per_cell, field);
       }

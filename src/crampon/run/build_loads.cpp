@@ -92,7 +92,7 @@ class LoadBuilder {
                            "tractions act on the faces of filled shapes", "use force_each on a region instead"});
         return false;
       }
-      const auto [lattice, fresh] = lattices_.try_emplace(b, bodies_, model_.grid, b);
+      const auto [lattice, is_new] = lattices_.try_emplace(b, bodies_, model_.grid, b);
       for (const OuterFace<Dim>& face : find_outer_faces(lattice->second, bodies_, *problem_.bodies[b].shape, model_.symmetries)) {
         if (in.face && !looks(face, lattice->second, (*in.face)[0] - 'x', (*in.face)[1] == '+' ? 1 : -1)) continue;
         if (in_region(in, bodies_.particles[face.particle].x) || in_region(in, face.point)) add_column(in, lattice->second, face);

@@ -173,7 +173,7 @@ PointFrame sample_nodes(const State<Dim>& state, const StepWork<Dim>& work, cons
   for (int k = 0; k < Dim; ++k) frame.cell = std::fmax(frame.cell, model.grid.cell[k]);
   DataArray field{"cracks_across", "1", 1, {}}, mass{"mass", "kg", 1, {}}, momentum{"momentum", "kg m/s", 3, {}},
       force{"force", "N", 3, {}};
-  for (std::size_t b = 0; b < work.blocks.size() && work.nodes.momentum.size() > 0; ++b) {
+  for (std::size_t b = 0; b < work.blocks.size() && work.nodes.momentum.nodes.size() > 0; ++b) {
     const BlockLayers<Dim>& layers = work.nodes.layers[b];
     for (std::size_t l = 0; l < layers.node.size(); ++l) {
       if (model.is_rigid(layers.node[l].field)) continue;

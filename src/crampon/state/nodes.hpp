@@ -137,36 +137,46 @@ struct BlockLayers {
   }
 };
 
-/// All nodal quantities of a step. Arrays are indexed [slot][local node]; a slot is a (block, layer).
+/// What one step keeps for each node of each velocity field: records of one kind. Each block puts the parts of its particles on tiles of its own,
+/// assembly adds tiles up at nodes (step/assemble.hpp), and particles read what is gathered from nodes (step/tile_buffer.hpp).
+template <class Record>
+struct NodalRecords {
+  AlignedArray<Record> tiles;  ///< [slot of a tile][tile node]; empty where particles give nothing
+  AlignedArray<Record> nodes;  ///< [slot][own node]
+
+  Record& operator[](std::size_t i) { return nodes[i]; }
+  const Record& operator[](std::size_t i) const { return nodes[i]; }
+  std::size_t bytes() const { return tiles.bytes() + nodes.bytes(); }
+};
+
+/// All nodal quantities of a step. A slot is a (block, layer).
 template <int Dim>
 struct Nodes {
   std::vector<BlockLayers<Dim>> layers;  ///< per block
   std::size_t tile_slots = 0, node_slots = 0, crossing_tile_slots = 0, crossing_node_slots = 0;
 
-  // Tiles: private to a block, added up by assembly.
-  AlignedArray<Pack> tile_momentum;
-  AlignedArray<NodalVector<Dim>> tile_moment;
-  AlignedArray<PieceMark> tile_piece;
-  AlignedArray<NodalVector<Dim>> tile_force;
-  AlignedArray<ContactSums<Dim>> tile_contact;
-  AlignedArray<CrossingSums> tile_crossing;
+  NodalRecords<Pack> momentum;              ///< {p, m} with the mass in lane Dim: kg m/s, kg
+  NodalRecords<NodalVector<Dim>> arm;       ///< tiles: sum of m x_p, kg m; nodes: sum of m (x_i - x_p); where rotation is carried
+  NodalRecords<PieceMark> piece;            ///< whose rotation the node has a part in, where fields have several pieces
+  NodalRecords<NodalVector<Dim>> force;     ///< N
+  NodalRecords<NodalVector<Dim>> velocity;  ///< what the next stress update reads, m/s
+  NodalRecords<MotionRecord<Dim>> motion;   ///< {v', a} of Task 4
+  NodalRecords<ContactSums<Dim>> contact;
+  NodalRecords<Pack> contact_gain;  ///< after Task 4: {what particles add to their memory of contact, 1} in contact, else 0
+  NodalRecords<CrossingSums> crossing;
 
-  // Nodes of blocks.
-  AlignedArray<Pack> momentum;              ///< {p, m} with the mass in lane Dim: kg m/s, kg
-  AlignedArray<NodalVector<Dim>> arm;       ///< sum of m (x_i - x_p) over particles, kg m; where rotation is carried
-  AlignedArray<PieceMark> piece;            ///< whose rotation the node has a part in, where fields have several pieces
-  AlignedArray<NodalVector<Dim>> force;     ///< N
-  AlignedArray<NodalVector<Dim>> velocity;  ///< what the next stress update reads, m/s
-  AlignedArray<MotionRecord<Dim>> motion;   ///< {v', a} of Task 4
-  AlignedArray<ContactSums<Dim>> contact;
-  AlignedArray<Pack>
-      contact_gain;  ///< after Task 4: {what particles are to add to their memory of contact, 1} where there is contact, else 0
-  AlignedArray<CrossingSums> crossing;
-
+  /// f(records) for each kind. The first line binds all members, so that one that is not named here does not compile.
+  template <class Self, class F>
+  static void for_records(Self& self, F f) {
+    auto& [layers, tile_slots, node_slots, crossing_tile_slots, crossing_node_slots, momentum, arm, piece, force, velocity, motion, contact,
+           contact_gain, crossing] = self;
+    const auto visit = [&](auto&... records) { (f(records), ...); };
+    visit(momentum, arm, piece, force, velocity, motion, contact, contact_gain, crossing);
+  }
   std::size_t bytes() const {
-    return tile_momentum.bytes() + tile_moment.bytes() + tile_piece.bytes() + arm.bytes() + piece.bytes() + tile_force.bytes() +
-           tile_contact.bytes() + tile_crossing.bytes() + momentum.bytes() + force.bytes() + velocity.bytes() + motion.bytes() +
-           contact.bytes() + contact_gain.bytes() + crossing.bytes();
+    std::size_t sum = 0;
+    for_records(*this, [&](const auto& records) { sum += records.bytes(); });
+    return sum;
   }
 };
 

@@ -110,10 +110,12 @@ inline void add_record(Record& a, const Record& b) {
   }
 }
 
-/// Sum of all tiles over the own nodes of a block, for one layer. `out` has block_nodes records.
+/// Sum of all tiles over the own nodes of a block, for one of its layers.
 template <int Dim, class Shape, class Record>
-void assemble_layer(const StepWork<Dim>& work, std::size_t block, const Layer& wanted, const AlignedArray<Record>& tiles, Record* out,
+void assemble_layer(const StepWork<Dim>& work, std::size_t block, std::size_t own_layer, NodalRecords<Record>& records,
                     bool contact_only = false) {
+  const Layer& wanted = work.nodes.layers[block].node[own_layer];
+  Record* out = &records[work.nodes.layers[block].slot(own_layer, 0)];
   std::fill_n(out, block_nodes<Dim>, Record{});
   const Block<Dim>& own = work.blocks.list[block];
   for (int o = 0; o < neighbour_count<Dim>; ++o) {
@@ -125,7 +127,7 @@ void assemble_layer(const StepWork<Dim>& work, std::size_t block, const Layer& w
     if (layer < 0) continue;
     const Overlap<Dim, Shape> overlap(neighbour_step<Dim>(o), touched_box(work, c, layer));
     if (overlap.empty) continue;
-    const Record* tile = &tiles[(std::size_t{layers.tile_begin} + layer) * Tile<Dim, Shape>::nodes];
+    const Record* tile = &records.tiles[(std::size_t{layers.tile_begin} + layer) * Tile<Dim, Shape>::nodes];
     overlap.rows([&](int local, int t, auto count) {
       for (int i = 0; i < count; ++i) add_record(out[local + i], tile[t + i]);
     });

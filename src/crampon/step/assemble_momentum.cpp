@@ -9,7 +9,7 @@ template <int Dim, class Shape>
 void assemble_momentum(StepWork<Dim>& work, std::size_t b) {
   const BlockLayers<Dim>& layers = work.nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    assemble_layer<Dim, Shape>(work, b, layers.node[l], work.nodes.tile_momentum, &work.nodes.momentum[layers.slot(l, 0)]);
+    assemble_layer<Dim, Shape>(work, b, l, work.nodes.momentum);
   }
 }
 

@@ -88,28 +88,22 @@ void lay_out_nodes(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mod
     nodes.crossing_node_slots += l.node_cracks.size();
   }
   using T = Tile<Dim, Shape>;
-  nodes.tile_momentum.resize_discarding(nodes.tile_slots * T::nodes);
-  nodes.tile_force.resize_discarding(nodes.tile_slots * T::nodes);
-  if (state.pieces.any()) {
-    nodes.tile_moment.resize_discarding(nodes.tile_slots * T::nodes);
-    nodes.arm.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  }
-  if (state.pieces.several()) {
-    nodes.tile_piece.resize_discarding(nodes.tile_slots * T::nodes);
-    nodes.piece.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  }
-  nodes.momentum.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  nodes.force.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  nodes.velocity.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  nodes.motion.resize_discarding(nodes.node_slots * block_nodes<Dim>);
+  const auto on_tiles = [&](auto& records) { records.tiles.resize_discarding(nodes.tile_slots * T::nodes); };
+  const auto on_nodes = [&](auto& records) { records.nodes.resize_discarding(nodes.node_slots * block_nodes<Dim>); };
+  const auto on_both = [&](auto& records) { on_tiles(records), on_nodes(records); };
+  on_both(nodes.momentum);
+  on_both(nodes.force);
+  on_nodes(nodes.velocity);
+  on_nodes(nodes.motion);
+  if (state.pieces.any()) on_both(nodes.arm);
+  if (state.pieces.several()) on_both(nodes.piece);
   if (!several) return;
-  nodes.tile_contact.resize_discarding(nodes.tile_slots * T::nodes);
-  nodes.contact.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  if (state.particles.contact.size() > 0) nodes.contact_gain.resize_discarding(nodes.node_slots * block_nodes<Dim>);
-  nodes.tile_crossing.resize_discarding(nodes.crossing_tile_slots * T::nodes);
-  nodes.crossing.resize_discarding(nodes.crossing_node_slots * block_nodes<Dim>);
+  on_both(nodes.contact);
+  if (state.particles.contact.size() > 0) on_nodes(nodes.contact_gain);
+  nodes.crossing.tiles.resize_discarding(nodes.crossing_tile_slots * T::nodes);
+  nodes.crossing.nodes.resize_discarding(nodes.crossing_node_slots * block_nodes<Dim>);
   for (std::size_t b = 0; b < blocks; ++b) {
-    std::copy(crossing[b].begin(), crossing[b].end(), nodes.tile_crossing.begin() + nodes.layers[b].crossing_tile_begin * T::nodes);
+    std::copy(crossing[b].begin(), crossing[b].end(), nodes.crossing.tiles.begin() + nodes.layers[b].crossing_tile_begin * T::nodes);
   }
 }
 

@@ -22,8 +22,8 @@ class MomentProjection {
         first_(work.blocks.list[b].first_node()),
         sums_(work.scratch[b].rotation) {
     sums_.clear();
-    if (pieces_.any()) tiles_ = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_moment);
-    if (pieces_.several()) marks_ = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_piece);
+    if (pieces_.any()) tiles_ = cleared_tiles<Dim, Shape>(work, b, work.nodes.arm);
+    if (pieces_.several()) marks_ = cleared_tiles<Dim, Shape>(work, b, work.nodes.piece);
   }
 
   /// \param m  masses of the pack, kg

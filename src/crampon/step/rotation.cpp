@@ -11,8 +11,8 @@ void carry_rotation(State<Dim>& state, StepWork<Dim>& work, std::size_t b, Spin 
   };
   const BlockLayers<Dim>& layers = work.nodes.layers[b];
   const Pieces<Dim>& pieces = state.pieces;
-  const NodalVector<Dim>* arm = work.nodes.arm.data();
-  Pack* momentum = work.nodes.momentum.data();
+  const NodalVector<Dim>* arm = work.nodes.arm.nodes.data();
+  Pack* momentum = work.nodes.momentum.nodes.data();
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
     const std::uint32_t piece = pieces.in_field(layers.node[l].field);
     if (piece == no_piece) continue;

@@ -12,7 +12,7 @@ void assemble_contact_sums(StepWork<Dim>& work, std::size_t b) {
   const BlockLayers<Dim>& layers = work.nodes.layers[b];
   if (layers.shared.empty()) return;
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    assemble_layer<Dim, Shape>(work, b, layers.node[l], work.nodes.tile_contact, &work.nodes.contact[layers.slot(l, 0)], true);
+    assemble_layer<Dim, Shape>(work, b, l, work.nodes.contact, true);
   }
   // Normals belong to cracks, not to layers, and are kept for the whole tile.
   for (std::size_t c = 0; c < layers.node_cracks.size(); ++c) {
@@ -25,8 +25,8 @@ void assemble_contact_sums(StepWork<Dim>& work, std::size_t b) {
       const auto at = std::lower_bound(tile.tile_cracks.begin(), tile.tile_cracks.end(), layers.node_cracks[c]);
       if (at == tile.tile_cracks.end() || *at != layers.node_cracks[c]) continue;
       const CrossingSums* sums =
-          &work.nodes.tile_crossing[(tile.crossing_tile_begin + static_cast<std::size_t>(at - tile.tile_cracks.begin())) *
-                                    Tile<Dim, Shape>::nodes];
+          &work.nodes.crossing
+               .tiles[(tile.crossing_tile_begin + static_cast<std::size_t>(at - tile.tile_cracks.begin())) * Tile<Dim, Shape>::nodes];
       Overlap<Dim, Shape>(neighbour_step<Dim>(o), whole_tile<Dim, Shape>()).rows([&](int local, int t, int count) {
         for (int i = 0; i < count; ++i) add_record(out[local + i], sums[t + i]);
       });

@@ -10,7 +10,7 @@ void assemble_forces(StepWork<Dim>& work, std::size_t b) {
   Nodes<Dim>& nodes = work.nodes;
   const BlockLayers<Dim>& layers = nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    assemble_layer<Dim, Shape>(work, b, layers.node[l], nodes.tile_force, &nodes.force[layers.slot(l, 0)]);
+    assemble_layer<Dim, Shape>(work, b, l, nodes.force);
   }
 }
 

@@ -18,8 +18,8 @@ void assemble_arms(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mod
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
     const std::uint32_t piece = state.pieces.in_field(layers.node[l].field);
     if (piece == no_piece) continue;
-    assemble_layer<Dim, Shape>(work, b, layers.node[l], nodes.tile_moment, &nodes.arm[layers.slot(l, 0)]);
-    if (piece == several_pieces) assemble_layer<Dim, Shape>(work, b, layers.node[l], nodes.tile_piece, &nodes.piece[layers.slot(l, 0)]);
+    assemble_layer<Dim, Shape>(work, b, l, nodes.arm);
+    if (piece == several_pieces) assemble_layer<Dim, Shape>(work, b, l, nodes.piece);
   }
   const auto origin_of = [&](std::uint32_t piece) { return state.pieces.list[piece].origin; };
   for_turning_nodes(state, work, model, b, origin_of, [&](std::size_t i, NodalVector<Dim> r, std::uint32_t) {

@@ -14,7 +14,7 @@ void gather_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model
   Nodes<Dim>& nodes = work.nodes;
   const BlockLayers<Dim>& layers = nodes.layers[b];
   for (std::size_t l = 0; l < layers.node.size(); ++l) {
-    assemble_layer<Dim, Shape>(work, b, layers.node[l], nodes.tile_momentum, &nodes.momentum[layers.slot(l, 0)]);
+    assemble_layer<Dim, Shape>(work, b, l, nodes.momentum);
   }
   carry_rotation(state, work, b, &PieceRotation<Dim>::spin_term, (transfer.of_start ? 0. : dt) - state.particles.lead);
   for_nodes(work, model, b, [&](std::size_t i, bool deformable) {

@@ -93,7 +93,7 @@ void project_contact_sums(State<Dim>& state, StepWork<Dim>& work, const Model<Di
   const SharedNodes<Dim, Shape> shared(work, b);
   layers.sums_contact = shared.any();
   if (!shared.any()) return;
-  ContactSums<Dim>* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_contact);
+  ContactSums<Dim>* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.contact);
   const Particles<Dim>& particles = state.particles;
   const auto first_node = work.blocks.list[b].first_node();
   const bool volumes = model.contact.detection == ContactDetection::volume || model.contact.several_fields() || model.contact.needs_areas();

@@ -9,7 +9,7 @@ namespace crampon {
 template <int Dim, class Shape>
 void project_forces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
   if (!work.blocks.list[b].has_particles()) return;
-  NodalVector<Dim>* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_force);
+  NodalVector<Dim>* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.force);
   for_packs<Dim, Shape>(state, work, model, b, internal_forces<Dim, Shape>(state.particles, tiles));
   project_other_forces<Dim, Shape>(state, work, model, b, tiles);
 }

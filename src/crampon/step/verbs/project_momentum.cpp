@@ -10,7 +10,7 @@ namespace crampon {
 template <int Dim, class Shape>
 void project_momentum(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
   if (!work.blocks.list[b].has_particles()) return;
-  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_momentum);
+  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.momentum);
   const Particles<Dim>& particles = state.particles;
   const Pack* offsets = work.nodes.layers[b].offsets.start.data();
   MomentProjection<Dim, Shape> moments(state, work, model, b);

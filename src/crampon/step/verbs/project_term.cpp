@@ -14,7 +14,7 @@ void project_term(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mode
   const int term = work.now.term;
   if (!work.blocks.list[b].has_particles()) return;
   const NodalVector<Dim>* w = gathered<Dim, Shape, &Nodes<Dim>::velocity>(work, b);
-  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_momentum);
+  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.momentum);
   const PairOffsets<Dim>& faces = work.nodes.layers[b].offsets;
   // Faces move with the first term; in the others they stand still.
   std::vector<Pack> offsets = transfer.of_start ? faces.start : faces.end;

@@ -11,7 +11,7 @@ template <int Dim, class Shape>
 void take_velocities_and_project(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t b) {
   const VelocityRule& rule = work.now.rule;
   if (!work.blocks.list[b].has_particles()) return;
-  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_momentum);
+  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.momentum);
   const Pack* offsets = work.nodes.layers[b].offsets.end.data();
   for_taken<Dim, Shape>(state, work, model, b, rule,
                         [&](std::uint32_t pack, const Stencil<Dim, Shape>& stencil, const PairTarget* targets) {

@@ -28,7 +28,7 @@ void update_velocities_and_project(State<Dim>& state, StepWork<Dim>& work, const
   if (!work.blocks.list[b].has_particles()) return;
   take_up_couples(state, work, model, b, dt);
   const MotionRecord<Dim>* motion = gathered<Dim, Shape, &Nodes<Dim>::motion>(work, b);
-  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.tile_momentum);
+  Pack* tiles = cleared_tiles<Dim, Shape>(work, b, work.nodes.momentum);
   Particles<Dim>& particles = state.particles;
   const PairOffsets<Dim>& offsets = work.nodes.layers[b].offsets;
   for_packs<Dim, Shape>(state, work, model, b,
