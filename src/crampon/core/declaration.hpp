@@ -187,8 +187,8 @@ class Declaration : public Record {
   }
 
   /// The words that the text just declared may hold are listed elsewhere: editors are offered that list (json_schema() in input/schema.hpp).
-  Declaration& words_from(std::string list) {
-    last_entry().words = std::move(list);
+  Declaration& words_from(const std::string& list) {
+    last_entry().words = list;
     return *this;
   }
 
