@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # clang-tidy 14 on the sources that changed: against the merge base with the main branch, else the last commit, else
 # (a shallow clone of one commit) on all. --all takes all sources. A changed header brings the sources that include it directly.
-# Without --all no further file is begun after CRAMPON_TIDY_MINUTES (2), and what was left out is said: a change of everything
+# Without --all no further file is begun after CRAMPON_TIDY_MINUTES (1), and what was left out is said: a change of everything
 # would take longer than all tests together.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -42,7 +42,7 @@ echo "$(wc -w <<<"$files") files"
 commands=$(mktemp -d)
 trap 'rm -r "$commands"' EXIT
 sed -E 's/ -fno-tree-loop-distribute-patterns//g; s/ -Winvalid-pch -include [^ ]*//g' "$folder/compile_commands.json" >"$commands/compile_commands.json"
-deadline=$(($(date +%s) + 60 * ${CRAMPON_TIDY_MINUTES:-2}))
+deadline=$(($(date +%s) + 60 * ${CRAMPON_TIDY_MINUTES:-1}))
 [ "${1:-}" = --all ] && deadline=$(($(date +%s) + 86400))
 check_one='
   if [ "$(date +%s)" -ge "$0" ]; then echo "left out (time is up): $2"; exit 0; fi

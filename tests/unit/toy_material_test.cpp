@@ -266,7 +266,8 @@ shape = { kind = "rectangle", low = [0.21, 0.04], high = [0.23, 0.2] }
 /// What the law takes is a column of its own, and the energy balance counts it.
 TEST_F(ToyMaterial, ItsLossStandsInTheEnergyBalance) {
   for (const int dimension : {2, 3}) {
-    for (const char* update : {"usl", "musl", "usf", "usavg"}) {
+    for (const std::string update : {"usl", "musl", "usf", "usavg"}) {
+      if (dimension == 3 && update != "usavg") continue;  // the order of the step knows no dimension
       const std::string still = dimension == 3 ? ", 0" : "";
       std::string text = input(dimension, fmt::format("[{{ expression = \"{}*(y-0.12)\" }}, 0{}]", shear, still));
       text.replace(text.find("[time]"), 6, fmt::format("[method]\nstress_update = \"{}\"\n[time]", update));

@@ -189,8 +189,9 @@ TEST_P(Adhesion, BreaksOnItsEllipse) {
   EXPECT_GT(std::hypot(m.v.back(), m.fall.back()), 0.01);
 }
 INSTANTIATE_TEST_SUITE_P(Pulls, Adhesion,
-                         testing::Values(Pull{"normal", 1, 0, "linear"}, Pull{"tangential", 0, 1, "linear"}, Pull{"mixed", 1, 1, "linear"},
-                                         Pull{"tangential", 0, 1, "gimp"}, Pull{"mixed", 1, 2, "gimp"}, Pull{"normal", 1, 0, "bspline"},
+                         testing::Values(Pull{"tangential", 0, 1, "linear"}, Pull{"mixed", 1, 2, "gimp"}, Pull{"normal", 1, 0, "bspline"}));
+INSTANTIATE_TEST_SUITE_P(PullsFull, Adhesion,
+                         testing::Values(Pull{"normal", 1, 0, "linear"}, Pull{"mixed", 1, 1, "linear"}, Pull{"tangential", 0, 1, "gimp"},
                                          Pull{"mixed", 1, 1, "bspline", 0.09}));
 
 struct Onset {

@@ -196,9 +196,10 @@ class Hertz : public testing::TestWithParam<Indenter> {};
 /// Row 40 asks for 5 % with ten cells and sixteen particles each (below); with five cells the edge comes out 5 to 7 % early.
 TEST_P(Hertz, PressureIsHalfAnEllipse) { expect_half_an_ellipse(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Flats, Hertz,
+                         testing::Values(Indenter{"bspline", Flat::wall, 5, 3, 0.09, 0.08},
+                                         Indenter{"linear", Flat::particles, 5, 3, 0.05, 0.06}));
+INSTANTIATE_TEST_SUITE_P(FlatsFull, Hertz,
                          testing::Values(Indenter{"linear", Flat::wall, 5, 3, 0.05, 0.06}, Indenter{"gimp", Flat::wall, 5, 3, 0.05, 0.06},
-                                         Indenter{"bspline", Flat::wall, 5, 3, 0.09, 0.08},
-                                         Indenter{"linear", Flat::particles, 5, 3, 0.05, 0.06},
                                          Indenter{"gimp", Flat::elastic, 5, 3, 0.05, 0.08}));
 
 class HertzFull : public Hertz {};
