@@ -24,7 +24,7 @@ for option in "${options[@]}"; do  # an option already in the cache needs no new
 done
 if [ $configured = no ]; then
   # An unusable cache folder must not stop the build. With precompiled headers the cache needs to be told what it may overlook (ccache(1)).
-  if ccache -s >/dev/null 2>&1; then
+  if ccache "${CXX:-c++}" -x c++ -c /dev/null -o "$log" >/dev/null 2>&1; then
     options+=("-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_SLOPPINESS=pch_defines,time_macros;ccache")
   fi
   if ! cmake --preset "$preset" "${options[@]}" >"$log" 2>&1; then

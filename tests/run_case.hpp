@@ -53,12 +53,13 @@ inline ShapeFunctionKind kind_of_word(const std::string& word) {
 enum class Runs { every, full };
 template <class Case>
 std::vector<Case> cases_for(Runs runs, const std::vector<Case>& all) {
-  const std::size_t shapes = all_shape_functions().size(), places = (all.size() + shapes - 1) / shapes;
+  std::map<std::string, std::size_t> number;  // of the shape functions of the sweep, in the order in which they come
+  for (const Case& c : all) number.try_emplace(c.shape_functions, number.size());
+  const std::size_t shapes = number.size(), places = (all.size() + shapes - 1) / shapes;
   std::map<std::string, std::size_t> met;  // so far, by shape function
   std::vector<Case> out;
   for (const Case& c : all) {
-    const auto shape = static_cast<std::size_t>(kind_of_word(c.shape_functions));
-    const std::size_t place = met[c.shape_functions]++;
+    const std::size_t shape = number[c.shape_functions], place = met[c.shape_functions]++;
     const bool in_every_run = place == shape % places || shape == place % shapes;
     if (in_every_run == (runs == Runs::every)) out.push_back(c);
   }

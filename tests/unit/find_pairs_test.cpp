@@ -142,6 +142,7 @@ TEST(FindPairs, TouchingHalfPlanes) {
             if (!(std::fmin(node.fields[0].m, node.fields[1].m) > 1e-3)) continue;
             const auto pairs = pairs_of(node, contact);
             ASSERT_EQ(who(pairs), Who{"0|1"});
+            ASSERT_TRUE(std::isfinite(norm(pairs[0].n)) && std::isfinite(pairs[0].gap) && std::isfinite(pairs[0].area));
             const double weight = std::fmin(node.fields[0].m, node.fields[1].m);
             weights += weight;
             normal += weight * degrees_between(pairs[0].n, line.n());
@@ -328,14 +329,19 @@ TEST(FindPairs, DeepNodesBeforeARigidFace) {
   for (const Shape shape : shapes) {
     ContactModel<2> contact = fields_of(2, FrictionlessContact{}, shape);
     contact.fields[1].rigid = contact.fields[1].ignores_cracks = true;
+    int before = 0, behind = 0;  // nodes that see the rigid body
     for (const double depth : {0.2, 0.6, 0.95, 1.02, 1.3}) {
       const Touching line{0, depth};  // the rigid face is at y = depth, the node at 0
       const NodeFacts<2> node = facts_at({}, line.particles(), shape, line.l);
       if (!(node.fields[1].m > 0)) continue;
+      ++(depth < 0.99 ? before : behind);
       const bool held = !pairs_of(node, contact).empty();
       // What tells the depth is the mean position of a face's particles, which a single row tells to a few hundredths.
       EXPECT_EQ(held, depth < 0.99) << "depth " << depth << " cells";
     }
+    EXPECT_GT(before, 0);
+    // Linear functions and uGIMP see no particles of the face from a cell away.
+    EXPECT_GE(behind, shape.reach_of_sums() > 1 ? 1 : 0);
   }
 }
 
