@@ -12,21 +12,30 @@ namespace {
 /// at the neighbour with the lowest number. Where none has, they stay.
 template <int Dim>
 void fill_gaps(const std::vector<Facet<Dim>>& facets, std::vector<std::optional<Vec<Dim>>>& moved) {
-  const auto is_gap = [](const auto& displacement) { return !displacement; };
-  for (bool spreads = true; spreads && std::any_of(moved.begin(), moved.end(), is_gap);) {
-    const std::vector<std::optional<Vec<Dim>>> known = moved;  // one facet further each time
-    std::vector<std::size_t> from(moved.size(), moved.size());
-    for (const Facet<Dim>& facet : facets) {
-      for (const VertexId v : facet) {
-        for (const VertexId u : facet) {
-          if (!known[v] && known[u] && u < from[v]) from[v] = u;
-        }
+  const std::size_t count = moved.size();
+  std::vector<VertexId> front, next;  // the vertices that the last and the present round have reached: one facet further each time
+  for (std::size_t v = 0; v < count; ++v) {
+    if (moved[v]) front.push_back(static_cast<VertexId>(v));
+  }
+  if (front.size() == count) return;
+  std::vector<std::vector<VertexId>> beside(count);
+  for (const Facet<Dim>& facet : facets) {
+    for (const VertexId v : facet) {
+      for (const VertexId u : facet) {
+        if (u != v) beside[v].push_back(u);
       }
     }
-    spreads = false;
-    for (std::size_t v = 0; v < moved.size(); ++v) {
-      if (from[v] < moved.size()) moved[v] = known[from[v]], spreads = true;
+  }
+  std::vector<std::size_t> from(count, count);
+  for (; !front.empty(); front.swap(next), next.clear()) {
+    for (const VertexId u : front) {
+      for (const VertexId v : beside[u]) {
+        if (moved[v]) continue;
+        if (from[v] == count) next.push_back(v);
+        from[v] = std::min(from[v], std::size_t{u});
+      }
     }
+    for (const VertexId v : next) moved[v] = moved[from[v]];
   }
   for (auto& displacement : moved) {
     if (!displacement) displacement = Vec<Dim>{};
