@@ -10,7 +10,7 @@
 
 namespace crampon {
 
-/// The facts that particles about the nodes must give to the pairs of a run, beyond the sums at the nodes.
+/// At which nodes a run asks for the particles about them one by one (NodeFacts::cloud), because sums at the nodes do not tell what is asked.
 struct CloudsWanted {
   bool among_materials = false;  ///< at nodes of several material fields
   bool across_cracks = false;    ///< at all nodes with several velocity fields

@@ -101,7 +101,8 @@ void assemble_start_momenta(State<Dim>& state, StepWork<Dim>& work, const Model<
 template <int Dim, class Shape>
 void assemble_contact_sums(StepWork<Dim>& work, std::size_t block);
 
-/// After Task 1: the nodes with several fields, their groups, pairs, normals, gaps and areas, which hold for the whole step.
+/// Finds the nodes with several fields, their groups and pairs, and the normals, gaps and areas of these, which hold for the whole step (N03
+/// section 2.2; N13 sections 1.1, 1.2 and 3, step 1). Who meets whom says contact/find_pairs.hpp.
 template <int Dim, class Shape>
 void find_contacts(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block);
 
@@ -130,12 +131,13 @@ void start_meeting_faces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim
 template <int Dim>
 void link_face_columns(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
-/// Impulses of all columns, and of the pairs of their nodes.
+/// Finds the impulses of all columns, and of the pairs of their nodes.
 template <int Dim>
 void meet_faces(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, ContactTask task);
 
-/// Tasks 2 and 6 change momenta alone; Task 4 changes momenta and forces together and leaves fixed components alone. Nodes that meet_faces has
-/// solved together with rigid faces take what it found.
+/// Contact between the velocity fields at the own nodes of a block (N03 section 2.2, N13 section 3; docs/theory/contact.md, the scheme). Tasks 2
+/// and 6 change momenta alone; Task 4 changes momenta and forces together and leaves fixed components alone. Nodes that meet_faces() has solved
+/// together with rigid faces take what it found.
 template <int Dim>
 void adjust_contact(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, std::size_t block, ContactTask task);
 
