@@ -38,10 +38,10 @@ files=$(for file in $files; do
 done)
 [ -n "$files" ] || { echo "no changed source"; exit 0; }
 echo "$(wc -w <<<"$files") files"
-# clang would stop at options of g++ that it does not know, and at its precompiled headers.
+# clang would stop at options of g++ that it does not know, and at precompiled headers of g++ or of another clang.
 commands=$(mktemp -d)
 trap 'rm -r "$commands"' EXIT
-sed -E 's/ -fno-tree-loop-distribute-patterns//g; s/ -Winvalid-pch -include [^ ]*//g' "$folder/compile_commands.json" >"$commands/compile_commands.json"
+sed -E 's/ -fno-tree-loop-distribute-patterns//g; s/ -Winvalid-pch( -Xclang -include-pch -Xclang [^ ]*)?( -Xclang)? -include( -Xclang)? [^ ]*//g' "$folder/compile_commands.json" >"$commands/compile_commands.json"
 deadline=$(($(date +%s) + 60 * ${CRAMPON_TIDY_MINUTES:-1}))
 [ "${1:-}" = --all ] && deadline=$(($(date +%s) + 86400))
 check_one='

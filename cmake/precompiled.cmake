@@ -4,3 +4,8 @@
 set(CRAMPON_PRECOMPILED
   <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional> <span> <stdexcept> <string> <unordered_map> <utility>
   <variant> <vector> <fmt/format.h>)
+
+# clang writes the time of each header into what it precompiles, so that a compiler cache would take none of it for the same.
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  add_compile_options(-Xclang -fno-pch-timestamp)
+endif()
