@@ -141,7 +141,7 @@ std::string name_of(const testing::TestParamInfo<Layer>& of) {
 
 /// Cells: the least height of a layer of which no node sees both faces.
 int least_height(const std::string& shape_functions) {
-  return static_cast<int>(std::fmax(4, std::ceil(2 * boxes_of(kind_of_word(shape_functions)).reach_of_sums() + 1)));
+  return static_cast<int>(std::fmax(4, std::ceil(2 * boxes_of(kind_of_word(shape_functions)).reach(0.25) + 1)));
 }
 
 class PressedLayer : public testing::TestWithParam<Layer> {};

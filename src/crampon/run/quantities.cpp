@@ -13,7 +13,7 @@ namespace {
 ParticleQuantity of_stress(const char* name) {
   const StressMeasure& measure = *find_stress_measure(name);
   return {std::string(measure.name),
-          std::string(measure.unit),
+          measure.unit.empty() ? "1" : std::string(measure.unit),
           1,
           false,
           std::string(measure.help),
