@@ -29,7 +29,7 @@ PAGES = {
     "material": [("materials.md", "`%s`")],
     "contact_law": [("contact.md", "`%s`")],
     "traction_law": [("traction.md", "`%s`")],
-    "shape_functions": [("step.md", "`%s`"), ("kinematics.md", "`shape/%s.hpp`")],
+    "shape_functions": [("step.md", "`%s`"), ("kinematics.md", "`shape/%s" + ".hpp`")],
 }
 NOT_LAWS = {"traction_law": {"none"}}
 

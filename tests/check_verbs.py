@@ -37,12 +37,12 @@ def complaints_about(step):
 def self_test():
     """Does each way to go wrong bring exactly the complaint about it?"""
     table = "stages() {\n  return {once<Dim, first<Dim>, second<Dim, Shape>>(\"name\")};\n}\nvoid advance("
-    whole = {"advance.cpp": table, "verbs/first.cpp": "void first(int) {}\n", "verbs/second.cpp": "void second(int) {}\n",
+    whole = {"advance" + SUFFIX: table, "verbs/first": "void first(int) {}\n", "verbs/second": "void second(int) {}\n",
              "verbs.hpp": "void first(int);\nvoid second(int);\n"}
     wrong = [({}, []),
-             ({"verbs/second.cpp": None}, ["second: no file"]),
-             ({"verbs/second.cpp": "void other(int) {}\n"}, ["second: verbs/second.cpp does not define it"]),
-             ({"verbs/third.cpp": "void third(int) {}\n"}, ["step/verbs/third.cpp: no verb"]),
+             ({"verbs/second": None}, ["second: no file"]),
+             ({"verbs/second": "void other(int) {}\n"}, ["second: verbs/second" + SUFFIX + " does not define it"]),
+             ({"verbs/third": "void third(int) {}\n"}, ["step/verbs/third" + SUFFIX + ": no verb"]),
              ({"verbs.hpp": "void second(int);\nvoid first(int);\n"}, ["step/verbs.hpp: number 1 is second, in the table it is first"]),
              ({"verbs.hpp": "void first(int);\n"}, ["step/verbs.hpp: number 2 is nothing, in the table it is second"])]
     failures = 0
@@ -52,7 +52,7 @@ def self_test():
             (step / "verbs").mkdir()
             for name, text in {**whole, **change}.items():
                 if text is not None:
-                    (step / name).write_text(text)
+                    (step / (name if "." in name else name + SUFFIX)).write_text(text)
             found, count = complaints_about(step)
         if count != 2 or len(found) != len(expected) or not all(f.startswith(e) for f, e in zip(found, expected)):
             print("%s: complaints %s, expected %s" % (sorted(change), found, expected))
