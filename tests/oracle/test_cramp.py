@@ -329,7 +329,7 @@ def gap_of_a_turned_closed_crack():
         for p in model.particles:
             p.x = turn((p.X[0], p.X[1] + (opening if p.X[1] > 7 * H else 0.0)))
         model.assign_fields()
-        model.project_momentum()
+        model.find_turns(), model.project_momentum()
         gaps = [pair.gap for pairs in model.node_pairs.values() for pair in pairs]
         assert len(gaps) > 5
         for gap in gaps:
