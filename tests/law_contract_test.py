@@ -20,6 +20,7 @@ MATERIAL = {
     "declaration": ("static const Declaration<Law>& declaration();", "static const Declaration<Law>& declaration()"),
     "example": ("static Law example() { return {}; }", "static Law example()"),
     "density": ("double density = 0;", "double density"),
+    "elasticity": ("std::optional<ElasticConstants> elasticity() const { return {}; }", "ElasticConstants elasticity() const"),
     "wave_speed": ("double wave_speed(StressState) const { return 1; }", "double wave_speed(StressState) const"),
     "wave_speed_changes": ("static constexpr bool wave_speed_changes = true;", "static constexpr bool wave_speed_changes"),
     "starts_with": ("static constexpr bool starts_with_deformation_gradient = false;", "static constexpr bool starts_with_deformation_gradient"),

@@ -92,7 +92,7 @@ State<Dim> filled() {
   State<Dim> s;
   s.particles.packs = 3;
   s.particles.history_size = 5;
-  s.particles.remembers_contact = s.particles.has_domains = s.particles.watched = true;
+  s.particles.remembers_contact = s.particles.has_domains = s.particles.keeps_turn = s.particles.watched = true;
   s.particles.allocate();
   std::mt19937_64 random(1);
   const auto number = [&] { return std::uniform_real_distribution<>(-1, 1)(random); };
@@ -126,6 +126,9 @@ State<Dim> filled() {
   crack.traction.force = {Vec<Dim>{}, Vec<Dim>{}};
   crack.traction.stored = {1, 2};
   crack.traction.between = {true, false};
+  s.fracture.tips.resize(1);
+  s.fracture.tips[0] = {0, 1, 1, 2, 3, 4, 5, 6, 7, NoParameter::none, NoParameter::tip, 8, 9};
+  s.fracture.next = 1;
   ContactName contact;
   contact.crack = 3;
   contact.others.insert(2);
@@ -176,7 +179,8 @@ SavedState changed(const SavedState& from, const std::string& name, std::size_t 
 /// What says how long arrays are or which particles stand where decides how everything else is read.
 bool is_structure(const std::string& name) {
   return name.ends_with(".count") || name.starts_with("order.") || name == "particles.packs" || name == "particles.history_size" ||
-         name == "particles.remembers_contact" || name == "particles.has_domains" || name == "particles.watched";
+         name == "particles.remembers_contact" || name == "particles.has_domains" || name == "particles.keeps_turn" ||
+         name == "particles.watched";
 }
 
 TEST(Members, EachCountsInTheHashAndIsNamedWhenItDiffers) {

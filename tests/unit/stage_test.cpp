@@ -102,7 +102,7 @@ void look_at(const std::vector<Stage<Dim>>& stages, Data& made, std::set<std::st
     names.insert(s.name);
     EXPECT_EQ((s.once != nullptr) + (s.on_block != nullptr) + !s.series.empty(), 1) << s.name;
     const Data takes = s.reach.reads | s.reach.beside;
-    for (std::uint32_t bit = 0; bit < 20; ++bit) {
+    for (std::uint32_t bit = 0; bit < 21; ++bit) {
       const auto one_of = static_cast<Data>(1u << bit);
       EXPECT_TRUE(!meet(takes, one_of) || meet(made, one_of)) << s.name << " reads data " << bit << " before a line has written it";
     }
@@ -126,6 +126,7 @@ TEST(Stages, OfTheStepReadWhatIsThere) {
                                           "face loads",
                                           "filter velocities",
                                           "find contact",
+                                          "fracture",
                                           "lead positions",
                                           "move cracks",
                                           "move rigid bodies",

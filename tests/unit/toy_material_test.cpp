@@ -41,6 +41,7 @@ struct Toy {
   static constexpr std::array<LawVariable, 2> variables{
       {{"toy_heat", "J/m3", "heat that the toy has made, per initial volume", 1, 1, LawVariable::Kind::dissipated, false},
        {"toy_strain", "1", "sum of the rates of deformation of the toy", 2, 6}}};
+  std::optional<ElasticConstants> elasticity() const { return std::nullopt; }  // a liquid
   double wave_speed(StressState) const { return std::sqrt(bulk_modulus / density); }
 
   template <int Dim>

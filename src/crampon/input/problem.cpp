@@ -206,6 +206,29 @@ const Declaration<ArcInput>& arc_declaration() {
   return d;
 }
 
+const Declaration<FractureInput>& fracture_declaration() {
+  static const auto d =
+      Declaration<FractureInput>(
+          "fracture",
+          "Fracture parameters at the tips of cracks that lie in bodies (2D): J, and the stress intensities K_I and K_II. "
+          "They are integrals over a disk about the tip, which shrinks where edges, other tips or other cracks are near.")
+          .quantity("inner_radius", &FractureInput::inner_radius, "1", Bounds::non_negative(),
+                    "cells from the tip: the part of the disk inside counts fully; fields closer than two cells to a tip are coarse")
+          .quantity("outer_radius", &FractureInput::outer_radius, "1", Bounds::at_least(3), "cells from the tip: where the disk ends")
+          .quantity("interval", &FractureInput::interval, "s", Bounds::positive(),
+                    "time between two looks, besides those for the history; left out: the time of a wave over the outer radius")
+          .choice("mixity", &FractureInput::mixity,
+                  {{"interaction", FractureInput::Mixity::interaction}, {"opening", FractureInput::Mixity::opening}},
+                  "how K_I and K_II are told apart: by the interaction integral, or by opening and sliding two cells behind the tip")
+          .check([](const FractureInput& in, Diagnostics& diagnostics) {
+            if (in.inner_radius > 0.8 * in.outer_radius)
+              diagnostics.add("inner_radius",
+                              fmt::format("the disk begins to end at {:g} cells and ends at {:g}", in.inner_radius, in.outer_radius),
+                              "sums over particles need some rows of them between", "let it be at most 0.8 of outer_radius");
+          });
+  return d;
+}
+
 const Declaration<CrackInput>& crack_declaration() {
   static const auto d =
       Declaration<CrackInput>("crack", "A polyline, or an arc divided into segments (2D). Above is to the left of its direction.")
@@ -413,6 +436,7 @@ const Declaration<Problem>& problem_declaration() {
                             .records("wall", &Problem::walls, wall_declaration, "rigid walls: half-spaces and balls")
                             .records("contact_pair", &Problem::contact_pairs, contact_pair_declaration, "what two bodies do when they meet")
                             .records("crack", &Problem::cracks, crack_declaration, "explicit cracks")
+                            .record("fracture", &Problem::fracture, fracture_declaration, "J and stress intensities at tips of cracks")
                             .records("boundary", &Problem::boundaries, boundary_declaration, "prescribed velocities")
                             .records("symmetry", &Problem::symmetries, symmetry_declaration, "mirror planes")
                             .records("load", &Problem::loads, load_declaration, "forces")

@@ -20,6 +20,7 @@
 #include "crampon/geometry/region.hpp"
 #include "crampon/material/material.hpp"
 #include "crampon/shape/registry.hpp"
+#include "crampon/step/fracture_model.hpp"
 #include "crampon/step/transfer.hpp"
 
 namespace crampon {
@@ -178,6 +179,14 @@ struct CrackInput : Located {
   std::optional<double> thickness;    ///< m; default: that of the bodies
 };
 
+/// [fracture]: J and stress intensities at the tips of cracks. 2D.
+struct FractureInput : Located {
+  double inner_radius = 2, outer_radius = 5;  ///< of the domain, cells
+  std::optional<double> interval;             ///< between two looks, s; none: the time of a wave over the outer radius
+  using Mixity = FractureModel::Mixity;
+  Mixity mixity = Mixity::interaction;
+};
+
 /// [[boundary]]: nodal velocity prescribed in a region.
 struct BoundaryInput : Located {
   std::string name;
@@ -258,6 +267,7 @@ struct Problem : Located {
   std::vector<WallInput> walls;
   std::vector<ContactPairInput> contact_pairs;
   std::vector<CrackInput> cracks;
+  std::optional<FractureInput> fracture;
   std::vector<BoundaryInput> boundaries;
   std::vector<SymmetryInput> symmetries;
   std::vector<LoadInput> loads;

@@ -4,6 +4,7 @@
 #include "crampon/core/declaration.hpp"
 #include "crampon/material/deformation.hpp"
 #include "crampon/material/elastic_constants.hpp"
+#include "crampon/material/material_law.hpp"
 
 namespace crampon {
 
@@ -28,6 +29,7 @@ struct ElasticLargeRotation {
   template <int Dim>
   static constexpr std::array<LawVariable, 0> variables{};
 
+  ElasticConstants elasticity() const { return {E, nu}; }
   double wave_speed(StressState s) const { return ElasticConstants(E, nu).wave_speed(s, density); }
   template <int Dim>
   static void initialise(Pack* F) {

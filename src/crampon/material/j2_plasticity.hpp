@@ -4,6 +4,7 @@
 #include "crampon/core/declaration.hpp"
 #include "crampon/material/deformation.hpp"
 #include "crampon/material/elastic_constants.hpp"
+#include "crampon/material/material_law.hpp"
 #include "crampon/material/spectrum.hpp"
 
 namespace crampon {
@@ -42,6 +43,7 @@ struct J2Plasticity {
        {"plastic_work", "J/m3", "work spent on plastic flow per initial volume, integral of q d(plastic_strain)", strain_at<Dim> + 1, 1,
         LawVariable::Kind::dissipated, false}}};
 
+  ElasticConstants elasticity() const { return {E, nu}; }
   double wave_speed(StressState s) const { return ElasticConstants(E, nu).wave_speed(s, density); }
   template <int Dim>
   static void initialise(Pack* history) {

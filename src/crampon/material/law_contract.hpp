@@ -2,9 +2,11 @@
 /// What a struct must have to be a material law. A member that is missing or has another form is named by the first error of the compiler.
 
 #include <concepts>
+#include <optional>
 #include <string_view>
 
 #include "crampon/core/declared.hpp"
+#include "crampon/material/elastic_constants.hpp"
 #include "crampon/material/law_variable.hpp"
 #include "crampon/material/stress_state.hpp"
 
@@ -29,6 +31,10 @@ concept has_density = requires(const Law law) {
 template <class Law>
 concept has_wave_speed = requires(const Law law) {
   { law.wave_speed(StressState::plane_strain) } -> std::same_as<double>;
+};
+template <class Law>
+concept says_its_elasticity = requires(const Law law) {
+  { law.elasticity() } -> std::convertible_to<std::optional<ElasticConstants>>;
 };
 template <class Law>
 concept says_whether_wave_speed_changes = requires {
@@ -93,6 +99,10 @@ struct MaterialLawContract {
   static_assert(law_contract::has_density<Law>, "a material law needs: double density; kg/m3 of the initial volume");
   static_assert(law_contract::has_wave_speed<Law>,
                 "a material law needs: double wave_speed(StressState) const; the fastest wave of small amplitude, m/s");
+  static_assert(
+      law_contract::says_its_elasticity<Law>,
+      "a material law needs: ElasticConstants elasticity() const; its elasticity of small strain from rest, or std::nullopt where that is "
+      "not isotropic");
   static_assert(law_contract::says_whether_wave_speed_changes<Law>,
                 "a material law needs: static constexpr bool wave_speed_changes; true if the wave speed depends on the deformation");
   static_assert(

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "crampon/core/pack.hpp"
+#include "crampon/material/elastic_constants.hpp"
 #include "crampon/material/law_contract.hpp"
 #include "crampon/material/law_variable.hpp"
 #include "crampon/material/stress_state.hpp"
@@ -35,6 +37,8 @@ class MaterialLaw {
   virtual double density() const = 0;                 ///< kg/m3, initial
   virtual double wave_speed(StressState) const = 0;   ///< m/s, fastest, undeformed
   virtual int history_size(int dimension) const = 0;  ///< Packs per pack
+  /// Elasticity of small strain from rest; none where it is not isotropic.
+  virtual std::optional<ElasticConstants> elasticity() const = 0;
   /// Can the wave speed change as the body deforms (so that the time step must be watched)?
   virtual bool wave_speed_changes() const = 0;
   virtual Pack wave_speed(StressState, int dimension, const Pack* stress, const Pack* history) const = 0;
@@ -82,6 +86,7 @@ class LawKernel final : public MaterialLaw {
   std::string strain_measure() const override { return Law::strain_measure; }
   double density() const override { return law_.density; }
   double wave_speed(StressState s) const override { return law_.wave_speed(s); }
+  std::optional<ElasticConstants> elasticity() const override { return law_.elasticity(); }
   int history_size(int dimension) const override { return dimension == 2 ? Law::template history_size<2> : Law::template history_size<3>; }
   bool wave_speed_changes() const override { return Law::wave_speed_changes; }
   Pack wave_speed(StressState s, int dimension, const Pack* stress, const Pack* history) const override {

@@ -12,6 +12,7 @@ class RigidMaterial final : public MaterialLaw {
   std::string strain_measure() const override { return "0"; }
   double density() const override { return 1; }
   double wave_speed(StressState) const override { return 0; }
+  std::optional<ElasticConstants> elasticity() const override { return std::nullopt; }
   int history_size(int) const override { return 0; }
   bool wave_speed_changes() const override { return false; }
   bool follows_deformation() const override { return false; }

@@ -206,6 +206,30 @@ void build_cracks(const Problem& problem, const BuiltBodies<2>& bodies, BuiltMod
   }
 }
 
+void build_fracture(const Problem& problem, Model<2>& model, State<2>& state) {
+  if (!problem.fracture) return;
+  const FractureInput& in = *problem.fracture;
+  FractureModel& fracture = model.fracture;
+  fracture.on = true;
+  fracture.inner = in.inner_radius, fracture.outer = in.outer_radius;
+  fracture.mixity = in.mixity;
+  double fastest = 0;
+  for (const Material<2>& m : model.materials) fastest = std::fmax(fastest, m.law->wave_speed(model.stress_state));
+  fracture.interval = in.interval.value_or(fracture.outer * model.grid.smallest_cell() / fastest);
+  for (std::size_t c = 0; c < state.cracks.size(); ++c) {
+    const Crack<2>& crack = state.cracks.list[c];
+    if (crack.closed) continue;
+    for (const std::size_t end : {0, 1}) {
+      const std::size_t v = end == 0 ? 0 : crack.plane.size() - 1;
+      if (crack.extension[end] > 0 || crack.mirrored[end] != 0 || !state.observed.cracked[c][v]) continue;
+      CrackTip tip;
+      tip.crack = static_cast<std::uint32_t>(c);
+      tip.end = static_cast<std::uint8_t>(end);
+      state.fracture.tips.push_back(tip);
+    }
+  }
+}
+
 template <int Dim>
 void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, State<Dim>& state) {
   int history = 0;
@@ -226,7 +250,10 @@ void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, St
   particles.history_size = history;
   particles.remembers_contact = model.contact.remembers_contact();
   particles.has_domains = has_domains;
+  particles.keeps_turn = model.fracture.on && std::any_of(model.materials.begin(), model.materials.end(),
+                                                          [](const Material<Dim>& m) { return !m.law->follows_deformation(); });
   particles.allocate();
+  std::fill(particles.turn.begin(), particles.turn.end(), splat(0.));
   for (std::size_t m = 0; m < by_material.size(); ++m) {
     const Run& run = state.order.runs[m];
     for (std::size_t k = run.first_pack; k < run.end_pack; ++k) {
@@ -297,6 +324,7 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   build_conditions(problem, model, errors);
   build_contact(problem, model, out.state, errors);
   if constexpr (Dim == 2) build_cracks(problem, bodies, out, errors);
+  if constexpr (Dim == 2) build_fracture(problem, model, out.state);
   if (errors.empty()) build_loads(problem, bodies, out.state.cracks, model, errors);
   if (!errors.empty()) throw InputError(std::move(errors));
   place_particles(bodies, model, out.state);

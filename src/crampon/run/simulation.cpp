@@ -20,6 +20,7 @@
 #include "crampon/step/lay_out_blocks.hpp"
 #include "crampon/step/particle_sums.hpp"
 #include "crampon/step/particle_view.hpp"
+#include "crampon/step/verbs.hpp"
 
 namespace crampon {
 
@@ -36,6 +37,12 @@ class Engine final : public Simulation {
     if (time_.end) end_ = *time_.end;
     state_.clock.time_step = time_.step ? *time_.step : time_.courant * stable_time_step();
     refuse_endless_run(problem);
+    if constexpr (Dim == 2) {
+      if (model_.fracture.on) {
+        watch_tips<Dim>(state_, work_, model_);
+        find_fracture_parameters<Dim>(state_, work_, model_);
+      }
+    }
     history_.start(problem, state_.observed);
     for (const Diagnostic& note : find_notes(Start<Dim>{problem, model_, state_, state_.clock.time_step, end_time()}))
       notes_at_start_.push_back(note.text());
@@ -158,6 +165,17 @@ class Engine final : public Simulation {
     }
     if (!state_.ledger.failures.empty())
       out.push_back(fmt::format("traction laws failed at {} crack vertices; see events.csv", state_.ledger.failures.size()));
+    for (const CrackTip& tip : state_.fracture.tips) {
+      const std::string where =
+          fmt::format("at the {} of the crack \"{}\"", tip.end == 0 ? "start" : "end", state_.cracks.list[tip.crack].name);
+      if (tip.missed > 0) {
+        const std::string why = tip.no_J == NoParameter::none ? "the last look found one" : reason(tip.no_J);
+        out.push_back(fmt::format("{} of {} looks found no J {}: {}; a disk of {:g} cells about the tip must be free", tip.missed,
+                                  tip.missed + tip.found, where, why, std::fmin(FractureModel::least_outer, model_.fracture.outer)));
+      } else if (tip.no_K != NoParameter::none) {
+        out.push_back(fmt::format("there is J but no K {}: {}", where, reason(tip.no_K)));
+      }
+    }
     if (state_.ledger.removed > 0) out.push_back(fmt::format("{} particles left the grid and were removed", state_.ledger.removed));
     if (auto note = tell_large_stretch(state_, model_)) out.push_back(std::move(*note));
     return out;

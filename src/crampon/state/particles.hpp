@@ -23,6 +23,10 @@ inline constexpr int motion_packs = Dim == 2 ? 1 : 2;
 template <int Dim>
 inline constexpr int domain_size = Dim* Dim;
 
+/// Components of a small turn: about z in 2D; about x, y and z in 3D.
+template <int Dim>
+inline constexpr int turn_size = Dim == 2 ? 1 : 3;
+
 /// Layouts of arrays of particles. [particle][width]
 struct PerParticle {
   std::size_t width = 1;
@@ -40,16 +44,19 @@ inline constexpr std::uint32_t padding_id = std::numeric_limits<std::uint32_t>::
 template <int Dim>
 struct Particles {
   std::size_t packs = 0;
-  int history_size = 0;               ///< Packs of material history per pack
-  bool remembers_contact = false;     ///< there is an array of it
-  bool has_domains = false;           ///< ... of domains that stretch
-  double lead = 0;                    ///< of positions before the present time, s
-  bool watched = false;               ///< there is moved_with, of the last step
-  AlignedArray<Pack> motion;          ///< [particle][motion_packs]: m, m/s
-  AlignedArray<Pack> mass_volume;     ///< [pack][2]: mass kg, initial volume m3
-  AlignedArray<Pack> stress;          ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
-  AlignedArray<Pack> history;         ///< [pack][history_size]: strain or deformation gradient and the law's own variables
-  AlignedArray<Pack> domain;          ///< [pack][domain_size]: half edges of domains that stretch, m, [axis * Dim + edge]; else empty
+  int history_size = 0;            ///< Packs of material history per pack
+  bool remembers_contact = false;  ///< there is an array of it
+  bool has_domains = false;        ///< ... of domains that stretch
+  bool keeps_turn = false;         ///< ... of the turn that laws of small strain leave out
+  double lead = 0;                 ///< of positions before the present time, s
+  bool watched = false;            ///< there is moved_with, of the last step
+  AlignedArray<Pack> motion;       ///< [particle][motion_packs]: m, m/s
+  AlignedArray<Pack> mass_volume;  ///< [pack][2]: mass kg, initial volume m3
+  AlignedArray<Pack> stress;       ///< [pack][stress_size]: Kirchhoff stress, Pa (N03 material: the stress of Eq. 9's small strain)
+  AlignedArray<Pack> history;      ///< [pack][history_size]: strain or deformation gradient and the law's own variables
+  AlignedArray<Pack> domain;       ///< [pack][domain_size]: half edges of domains that stretch, m, [axis * Dim + edge]; else empty
+  AlignedArray<Pack>
+      turn;  ///< [pack][turn_size]: sum of (grad v - grad v^T) dt / 2 where a law of small strain adds up the other half; else empty
   AlignedArray<Vec<Dim>> original;    ///< [particle]: position at the start, m
   AlignedArray<double> contact;       ///< [particle]: what it remembers of contact (ContactPair::history); empty when no law asks
   AlignedArray<Vec<Dim>> moved_with;  ///< [particle]: velocity with which it moved in the last step, m/s; kept where someone will look
@@ -66,6 +73,7 @@ struct Particles {
     visit(Member{"stress", "Pa"}, self.stress, PerPack{stress_size<Dim>});
     visit(Member{"history", "of the law"}, self.history, PerPack{static_cast<std::size_t>(self.history_size)});
     visit(Member{"domain", "m"}, self.domain, PerPack{self.has_domains ? std::size_t{domain_size<Dim>} : 0});
+    visit(Member{"turn", "rad"}, self.turn, PerPack{self.keeps_turn ? std::size_t{turn_size<Dim>} : 0});
     visit(Member{"original", "m"}, self.original, PerParticle{});
     visit(Member{"contact", "of the law"}, self.contact, PerParticle{self.remembers_contact ? 1u : 0u});
     visit(Member{"moved_with", "m/s", Use::display}, self.moved_with, PerParticle{self.watched ? 1u : 0u});
@@ -74,12 +82,13 @@ struct Particles {
   }
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [packs, history_size, remembers_contact, has_domains, lead, watched, motion, mass_volume, stress, history, domain, original,
-           contact, moved_with, id, body] = self;
+    auto& [packs, history_size, remembers_contact, has_domains, keeps_turn, lead, watched, motion, mass_volume, stress, history, domain,
+           turn, original, contact, moved_with, id, body] = self;
     visit(Member{"packs"}, packs);
     visit(Member{"history_size"}, history_size);
     visit(Member{"remembers_contact"}, remembers_contact);
     visit(Member{"has_domains"}, has_domains);
+    visit(Member{"keeps_turn"}, keeps_turn);
     visit(Member{"lead", "s"}, lead);
     visit(Member{"watched", "1", Use::display}, watched);
     for_arrays(self, [&](const Member& m, auto& array, auto) { visit(m, array); });

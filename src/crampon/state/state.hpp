@@ -11,6 +11,7 @@
 #include "crampon/core/saved_state.hpp"
 #include "crampon/state/contact_memory.hpp"
 #include "crampon/state/cracks.hpp"
+#include "crampon/state/fracture.hpp"
 #include "crampon/state/ledger.hpp"
 #include "crampon/state/particle_order.hpp"
 #include "crampon/state/particles.hpp"
@@ -75,6 +76,7 @@ struct State {
   Particles<Dim> particles;
   ParticleOrder order;
   Cracks<Dim> cracks;
+  Fracture fracture;
   ContactMemory contacts;
   ConditionMemory conditions;
   std::vector<RigidMotion<Dim>> rigid;  ///< per rigid body
@@ -90,11 +92,12 @@ struct State {
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [clock, particles, order, cracks, contacts, conditions, rigid, pieces, ledger, observed] = self;
+    auto& [clock, particles, order, cracks, fracture, contacts, conditions, rigid, pieces, ledger, observed] = self;
     visit(Member{"clock"}, clock);
     visit(Member{"particles"}, particles);
     visit(Member{"order"}, order);
     visit(Member{"cracks"}, cracks);
+    visit(Member{"fracture"}, fracture);
     visit(Member{"contacts"}, contacts);
     visit(Member{"conditions"}, conditions);
     visit(Member{"rigid"}, rigid);

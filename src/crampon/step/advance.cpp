@@ -26,6 +26,7 @@ struct Whether {
   static bool faces_are_loaded(S, W, M m) { return !m.faces.empty(); }
   static bool cracks_bear_tractions(S, W, M m) { return m.any_tractions(); }
   static bool there_are_cracks(S s, W, M) { return !s.cracks.empty(); }
+  static bool fracture_is_due(S, W w, M) { return w.now.fracture_due; }
   static bool pieces_turn(S s, W, M) { return s.pieces.any(); }
 
   static bool stress_goes_first(S, W, M m) { return updates_stress_first(m); }
@@ -68,6 +69,8 @@ void begin_step(const State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& 
   StepValues& now = work.now;
   now.dt = dt;
   now.watched = watched == Watched::yes;
+  now.fracture_due =
+      model.fracture.on && !state.fracture.tips.empty() && (now.watched || state.clock.time + dt * (1 + 1e-9) >= state.fracture.next);
   now.lead = position_lead(model, dt);
   now.further = now.lead - state.particles.lead;
   // N03 Eq. 35: half at a time for USAVG. The others strain in time with positions: USF to where they are, USL and MUSL along with them.
@@ -109,6 +112,7 @@ std::vector<Stage<Dim>> stages() {
       once<Dim, lead_positions<Dim, Shape>>("lead positions", If::positions_lead_further,
                                             {order | motion | rigid, none, order | motion | cracks}),
       once<Dim, watch_motion<Dim>>("lead positions", always, {order, none, motion}),
+      once<Dim, watch_tips<Dim>>("fracture", If::fracture_is_due, {order | motion | stress | cracks, none, tips}),
 
       once<Dim, evaluate_conditions<Dim>>("prescribe", always, {order | prescribed, none, prescribed}),
       blocks<Dim, prescribe_by_rigid<Dim>>("prescribe", If::rigid_bodies_prescribe, {rigid | prescribed, none, prescribed}),
@@ -214,6 +218,10 @@ std::vector<Stage<Dim>> stages() {
                                                          {motion | momenta | fields, none, cracks | tractions}),
       once<Dim, end_rigid_motion<Dim>, close_step<Dim>, close_ledger<Dim>, check_health<Dim, Shape>>(
           "close the step", always, {books | motion, none, order | motion | cracks | prescribed | rigid}),
+
+      // Task 7
+      once<Dim, find_fracture_parameters<Dim>>("fracture", If::fracture_is_due,
+                                               {tips | motion | stress | cracks | tractions | prescribed, none, tips}),
   };
 }
 

@@ -20,6 +20,7 @@
 #include "crampon/shape/stencil.hpp"
 #include "crampon/state/grid.hpp"
 #include "crampon/state/layers.hpp"
+#include "crampon/step/fracture_model.hpp"
 #include "crampon/step/loaded_faces.hpp"
 #include "crampon/step/transfer.hpp"
 
@@ -100,6 +101,7 @@ struct Model {
   std::vector<std::array<Vec<Dim>, Dim>> undeformed;
   std::vector<std::string> bodies;
   std::vector<CrackTraction> tractions;  ///< per crack
+  FractureModel fracture;
   std::vector<VelocityCondition<Dim>> conditions;
   std::vector<SymmetryPlane> symmetries;
   std::vector<Load<Dim>> loads;

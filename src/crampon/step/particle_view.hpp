@@ -53,6 +53,18 @@ class PackView {
   PackReport report() const { return law().report(model_.stress_state, Dim, stress(), history()); }
   /// F[d * Dim + k] = dx_d/dX_k; I + strain for laws of small strain.
   void deformation(Pack* F) const { law().deformation(model_.stress_state, Dim, stress(), history(), F); }
+  /// u[d * Dim + k] = du_d/dX_k. Laws of small strain add up their strain; the turn beside it is there where particles keep it.
+  void displacement_gradient(Pack* u) const {
+    deformation(u);
+    for (int k = 0; k < Dim; ++k) u[k * Dim + k] = u[k * Dim + k] - 1.;
+    if (!state_.particles.keeps_turn || law().follows_deformation()) return;
+    const Pack* turn = &state_.particles.turn[pack_ * turn_size<Dim>];
+    for (int c = 0; c < turn_size<Dim>; ++c) {
+      const int j = Dim == 2 ? 0 : (c + 1) % 3, i = Dim == 2 ? 1 : (c + 2) % 3;
+      u[i * Dim + j] = u[i * Dim + j] + turn[c];
+      u[j * Dim + i] = u[j * Dim + i] - turn[c];
+    }
+  }
   Pack wave_speed() const { return law().wave_speed(model_.stress_state, Dim, stress(), history()); }  ///< m/s
 
   /// A variable of this law: the Pack of its history that holds a component (LawVariable::size).

@@ -33,6 +33,7 @@ enum class Data : std::uint32_t {
   rotations = 1u << 17,   ///< of pieces, and the couples on them
   faces = 1u << 18,       ///< faces under load
   books = 1u << 19,       ///< sums of a step, and what went wrong in it
+  tips = 1u << 20,        ///< of cracks: particles about them, fracture parameters
 };
 constexpr Data operator|(Data a, Data b) { return static_cast<Data>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b)); }
 constexpr bool meet(Data a, Data b) { return (static_cast<std::uint32_t>(a) & static_cast<std::uint32_t>(b)) != 0; }

@@ -13,6 +13,7 @@
 #include "crampon/state/nodes.hpp"
 #include "crampon/state/state.hpp"
 #include "crampon/step/crack_view.hpp"
+#include "crampon/step/tip_watch.hpp"
 #include "crampon/step/transfer.hpp"
 
 namespace crampon {
@@ -128,11 +129,12 @@ struct Phase {
 
 /// What holds for the whole of a step: set before its first stage (step/advance.cpp), and what is prescribed by the stage "prescribe".
 struct StepValues {
-  double dt = 0;         ///< s
-  double lead = 0;       ///< of positions before the time of the step, s
-  double further = 0;    ///< by which they lead more than in the last step, s
-  double stress_dt = 0;  ///< over which a stress update of the step strains, s
-  bool watched = false;  ///< someone will look at the state after the step
+  double dt = 0;              ///< s
+  double lead = 0;            ///< of positions before the time of the step, s
+  double further = 0;         ///< by which they lead more than in the last step, s
+  double stress_dt = 0;       ///< over which a stress update of the step strains, s
+  bool watched = false;       ///< someone will look at the state after the step
+  bool fracture_due = false;  ///< fracture parameters are found at its end
   StepTransfer transfer;
   VelocityRule rule;
   int term = 1;  ///< of the series of a transfer
@@ -154,6 +156,7 @@ struct StepWork {
   Blocks<Dim> blocks;
   ParticlePlaces places;
   CrackView<Dim> crack_view;
+  std::vector<TipWatch> tips;  ///< per tip of State::fracture, in steps that find fracture parameters
   Nodes<Dim> nodes;
   std::vector<BlockScratch<Dim>> scratch;  ///< per block
   FaceContacts<Dim> face_contacts;

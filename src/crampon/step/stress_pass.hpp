@@ -27,6 +27,20 @@ double way_to_middle(const Model<Dim>& model, double dt) {
   return model.stress_update == StressUpdate::usf ? -0.5 * dt : 0.5 * dt;
 }
 
+/// What laws of small strain leave out of a velocity gradient: its antisymmetric part.
+template <int Dim>
+void add_turn(const Pack* L, double dt, Pack* turn);
+template <>
+inline void add_turn<2>(const Pack* L, double dt, Pack* turn) {
+  turn[0] = fused(splat(0.5 * dt), L[2] - L[1], turn[0]);
+}
+template <>
+inline void add_turn<3>(const Pack* L, double dt, Pack* turn) {
+  turn[0] = fused(splat(0.5 * dt), L[7] - L[5], turn[0]);
+  turn[1] = fused(splat(0.5 * dt), L[2] - L[6], turn[1]);
+  turn[2] = fused(splat(0.5 * dt), L[3] - L[1], turn[2]);
+}
+
 /// Calls the material law on batches of a few packs of one run: gradients are found while walking, the law sees a batch at once,
 /// and `then(pack, stencil, targets, run)` follows for every pack of it with the new stress. offsets: of folded pairs, for the time of the velocities.
 template <int Dim, class Shape, class Then>
@@ -46,6 +60,10 @@ void update_stress(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mod
         const MaterialLaw& law = *model.materials[run.material].law;
         if (ahead != 0 && law.follows_deformation()) {
           for (std::uint32_t k = first; k < end; ++k) take_to_middle<Dim>(L + (k - first) * Dim * Dim, ahead);
+        }
+        if (particles.keeps_turn && !law.follows_deformation()) {
+          for (std::uint32_t k = first; k < end; ++k)
+            add_turn<Dim>(L + (k - first) * Dim * Dim, dt, &particles.turn[std::size_t{k} * turn_size<Dim>]);
         }
         const StressBatch<Dim> batch{static_cast<int>(end - first),
                                      dt,

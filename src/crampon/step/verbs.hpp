@@ -40,6 +40,10 @@ void lead_positions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mo
 template <int Dim>
 void watch_motion(State<Dim>& state, StepWork<Dim>& work);
 
+/// Keeps velocities and displacement gradients of the particles about tips of cracks, where fracture parameters are due.
+template <int Dim>
+void watch_tips(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
 /// Values of all fixed components at the start and the end of the step. Serial, since expressions are evaluated.
 template <int Dim>
 void evaluate_conditions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
@@ -359,5 +363,11 @@ void close_ledger(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mode
 /// usually helps; removes particles that left the grid when the input says so.
 template <int Dim, class Shape>
 void check_health(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
+// Task 7
+
+/// J and stress intensities at the tips of cracks (docs/theory/fracture.md), from what watch_tips has kept and what has become of it.
+template <int Dim>
+void find_fracture_parameters(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
 }  // namespace crampon

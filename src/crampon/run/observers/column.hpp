@@ -65,6 +65,7 @@ class Cells {
  private:
   static std::string named(std::string pattern, int axis, std::string_view thing) {
     if (const std::size_t at = pattern.find("AXIS"); at != std::string::npos) pattern.replace(at, 4, 1, "xyz"[axis]);
+    if (const std::size_t at = pattern.find("NAME.END"); at != std::string::npos) return pattern.replace(at, 8, thing);
     if (const std::size_t at = pattern.find("NAME"); at != std::string::npos) pattern.replace(at, 4, thing);
     return pattern;
   }

@@ -2,6 +2,7 @@
 
 #include "crampon/run/observers/clock.hpp"
 #include "crampon/run/observers/energies.hpp"
+#include "crampon/run/observers/fracture.hpp"
 #include "crampon/run/observers/left_grid.hpp"
 #include "crampon/run/observers/loads.hpp"
 #include "crampon/run/observers/momentum.hpp"
@@ -22,6 +23,7 @@ std::vector<ObserverKind<Dim>>& observer_kinds() {
       observer_kind<Dim, Reactions<Dim>>(),  //
       observer_kind<Dim, Loads<Dim>>(),      //
       observer_kind<Dim, Openings<Dim>>(),   //
+      observer_kind<Dim, FractureParameters<Dim>>(),
       observer_kind<Dim, Probes<Dim>>(),
   };
   return list;

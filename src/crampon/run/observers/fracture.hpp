@@ -1,0 +1,68 @@
+#pragma once
+#include <string>
+
+#include "crampon/run/observers/observer.hpp"
+
+namespace crampon {
+
+/// What was last found at the tips of cracks, and how long cracks are.
+template <int Dim>
+class FractureParameters final : public Observer<Dim> {
+  struct Tip {
+    const CrackTip& is;
+  };
+  struct Length {
+    double length = 0;  ///< m
+  };
+
+ public:
+  static const auto& tip_table() {
+    static const std::vector<Column<Tip>> all = {
+        {{"J.NAME.END", "J/m2",
+          "J at an end of a crack, start or end: energy that goes into the tip for each area by which the crack grows",
+          "docs/theory/fracture.md"},
+         [](const Tip& t, int) { return t.is.J; }},
+        {{"J_far.NAME.END", "J/m2", "J far from the tip: what tractions on the faces take is not yet taken off", "docs/theory/fracture.md"},
+         [](const Tip& t, int) { return t.is.J_far; }},
+        {{"J_across.NAME.END", "J/m2", "second component of J: what would go into the tip if it moved to the left",
+          "docs/theory/fracture.md"},
+         [](const Tip& t, int) { return t.is.J_across; }},
+        {{"K_I.NAME.END", "Pa m^(1/2)", "intensity of opening", "docs/theory/fracture.md"}, [](const Tip& t, int) { return t.is.K_I; }},
+        {{"K_II.NAME.END", "Pa m^(1/2)",
+          "intensity of sliding; positive where the left side, seen along the crack towards the tip, moves ahead",
+          "docs/theory/fracture.md"},
+         [](const Tip& t, int) { return t.is.K_II; }},
+        {{"phase.NAME.END", "rad", "sliding against opening, two cells behind the tip", "atan2(sliding, opening)"},
+         [](const Tip& t, int) { return t.is.phase; }},
+    };
+    return all;
+  }
+  static const auto& length_table() {
+    static const std::vector<Column<Length>> all = {
+        {{"crack_length.NAME", "m", "length of the path of a crack", "sum of the lengths of its segments"},
+         [](const Length& l, int) { return l.length; }},
+    };
+    return all;
+  }
+  static std::vector<ColumnDescription> describe() {
+    std::vector<ColumnDescription> all = descriptions_in(tip_table());
+    for (ColumnDescription& d : descriptions_in(length_table())) all.push_back(std::move(d));
+    return all;
+  }
+
+  void look(const Present<Dim>& now, Cells& cells) const override {
+    if constexpr (Dim == 2) {
+      if (!now.model.fracture.on) return;
+      for (const CrackTip& tip : now.state.fracture.tips) {
+        cells.add<Dim>(tip_table(), Tip{tip}, now.state.cracks.list[tip.crack].name + (tip.end == 0 ? ".start" : ".end"));
+      }
+      for (const Crack<2>& crack : now.state.cracks.list) {
+        Length l;
+        for (std::size_t v = 1; v < crack.plane.size(); ++v) l.length += norm(crack.plane[v] - crack.plane[v - 1]);
+        cells.add<Dim>(length_table(), l, crack.name);
+      }
+    }
+  }
+};
+
+}  // namespace crampon

@@ -1,0 +1,90 @@
+#pragma once
+/// What is known of the tips of cracks: fracture parameters as they were last found (docs/theory/fracture.md).
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "crampon/core/members.hpp"
+#include "crampon/core/vector.hpp"
+
+namespace crampon {
+
+/// Why there is no J at a tip, or no K.
+enum class NoParameter : std::uint8_t {
+  none,         ///< there is one
+  outside,      ///< the tip does not lie in a body
+  edge,         ///< nearer than the smallest domain to the edge of the body
+  tip,          ///< ... to another tip
+  crack,        ///< ... to another crack, or to another part of its own
+  materials,    ///< several materials about the tip: J, but no K
+  anisotropic,  ///< the law has no isotropic elasticity at small strain: J, but no K
+};
+
+/// What follows "there is no J" or "no K": why.
+constexpr const char* reason(NoParameter why) {
+  switch (why) {
+    case NoParameter::none:
+      return "";
+    case NoParameter::outside:
+      return "the tip does not lie in a body";
+    case NoParameter::edge:
+      return "the edge of the body is too near";
+    case NoParameter::tip:
+      return "another tip is too near";
+    case NoParameter::crack:
+      return "another crack, or another part of its own, is too near";
+    case NoParameter::materials:
+      return "several materials meet there";
+    case NoParameter::anisotropic:
+      return "its material has no isotropic elasticity";
+  }
+  return "";
+}
+
+/// An end of a crack that lies in a body.
+struct CrackTip {
+  std::uint32_t crack = 0;
+  std::uint8_t end = 1;  ///< 0: where the path starts; 1: where it ends
+
+  double J = std::numeric_limits<double>::quiet_NaN();         ///< of what goes into the tip itself, J/m2
+  double J_far = std::numeric_limits<double>::quiet_NaN();     ///< of what comes from afar: tractions of the faces take the rest, J/m2
+  double J_across = std::numeric_limits<double>::quiet_NaN();  ///< second component, J/m2
+  double K_I = std::numeric_limits<double>::quiet_NaN(), K_II = std::numeric_limits<double>::quiet_NaN();  ///< Pa sqrt(m)
+  double phase = std::numeric_limits<double>::quiet_NaN();   ///< atan2(sliding, opening) behind the tip, rad
+  double radius = std::numeric_limits<double>::quiet_NaN();  ///< of the domain, m
+  NoParameter no_J = NoParameter::none, no_K = NoParameter::none;
+  std::int64_t found = 0, missed = 0;  ///< how often there was a J since the start, and how often not
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [crack, end, J, J_far, J_across, K_I, K_II, phase, radius, no_J, no_K, found, missed] = self;
+    visit(Member{"crack"}, crack);
+    visit(Member{"end"}, end);
+    visit(Member{"J", "J/m2"}, J);
+    visit(Member{"J_far", "J/m2"}, J_far);
+    visit(Member{"J_across", "J/m2"}, J_across);
+    visit(Member{"K_I", "Pa m^(1/2)"}, K_I);
+    visit(Member{"K_II", "Pa m^(1/2)"}, K_II);
+    visit(Member{"phase", "rad"}, phase);
+    visit(Member{"radius", "m"}, radius);
+    visit(Member{"no_J"}, no_J);
+    visit(Member{"no_K"}, no_K);
+    visit(Member{"found"}, found);
+    visit(Member{"missed"}, missed);
+  }
+};
+
+struct Fracture {
+  std::vector<CrackTip> tips;
+  double next = 0;  ///< when parameters are due, s
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [tips, next] = self;
+    visit(Member{"tips"}, tips);
+    visit(Member{"next", "s"}, next);
+  }
+};
+
+}  // namespace crampon
