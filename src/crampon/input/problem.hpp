@@ -181,7 +181,7 @@ struct CrackInput : Located {
 
 /// [fracture]: J and stress intensities at the tips of cracks. 2D.
 struct FractureInput : Located {
-  double inner_radius = 2, outer_radius = 5;  ///< of the domain, cells
+  double inner_radius = 3, outer_radius = 6;  ///< of the domain, cells
   std::optional<double> interval;             ///< between two looks, s; none: the time of a wave over the outer radius
   using Mixity = FractureModel::Mixity;
   Mixity mixity = Mixity::interaction;

@@ -7,7 +7,7 @@ struct FractureModel {
   enum class Mixity { interaction, opening };
   static constexpr double least_outer = 3;  ///< cells: about a tip with less room there is no J
   bool on = false;
-  double inner = 2, outer = 5;  ///< radii of the domain, cells
+  double inner = 3, outer = 6;  ///< radii of the domain, cells
   double interval = 0;          ///< between two looks, s
   Mixity mixity = Mixity::interaction;
 };
