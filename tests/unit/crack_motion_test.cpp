@@ -309,7 +309,7 @@ TYPED_TEST(CrackMotion, TractionsPullAgainstTheGapAndGiveNodesNoForceInAll) {
   const std::size_t n = crack.plane.size();
   CrackTraction& traction = s.model.tractions.front();
   traction.law = LinearElasticTraction{2e6, 2e6};  // as stiff in sliding as in opening: a spring along the gap
-  for (std::size_t v = 0; v < n; ++v) traction.area.push_back(v % 4 == 3 ? 0 : s.draw(0.1, 0.3));
+  for (std::size_t v = 0; v < n; ++v) crack.traction.area.push_back(v % 4 == 3 ? 0 : s.draw(0.1, 0.3));
   s.set_nodes([](const Vec<Dim>&) { return Vec<Dim>{}; });
   start_tractions(s.state, s.model);
   const StiffestVertex none = spread_tractions<Dim, LinearShape>(s.state, s.work, s.model);
@@ -320,7 +320,7 @@ TYPED_TEST(CrackMotion, TractionsPullAgainstTheGapAndGiveNodesNoForceInAll) {
   double stored = 0;
   for (std::size_t v = 0; v < n; ++v) {
     const Vec<Dim> gap = crack.upper[v] - crack.lower[v];
-    const double stiffness = 2e6 * traction.area[v];
+    const double stiffness = 2e6 * crack.traction.area[v];
     EXPECT_LT(norm(crack.traction.force[v] + gap * stiffness), 1e-9 * 2e6);
     stored += 0.5 * stiffness * dot(gap, gap);
   }

@@ -121,14 +121,16 @@ State<Dim> filled() {
   crack.upper_carriers = crack.lower_carriers = {{{1, 0, 0.5}, {2, 1, 0.5}}, {}};
   crack.extension = {1, 2};
   crack.mirrored = {0, 1};
+  crack.traction.area = {1, 2};
   crack.traction.history.resize(2);
   crack.traction.history[1].damage = 0.5;
   crack.traction.force = {Vec<Dim>{}, Vec<Dim>{}};
   crack.traction.stored = {1, 2};
   crack.traction.between = {true, false};
   s.fracture.tips.resize(1);
-  s.fracture.tips[0] = {0, 1, 1, 2, 3, 4, 5, 6, 7, NoParameter::none, NoParameter::tip, 8, 9};
-  s.fracture.next = 1;
+  s.fracture.tips[0] = {0,        1,   {1, 2, 3, 4, 5, 6, 7, NoParameter::none, NoParameter::tip}, 8, 9, 1, TipStatus::grows, 1, 2, 3,
+                        {{4, 5}}, true};
+  s.fracture.next = s.fracture.released = 1;
   ContactName contact;
   contact.crack = 3;
   contact.others.insert(2);
@@ -141,7 +143,7 @@ State<Dim> filled() {
   s.pieces.list.resize(1);
   s.pieces.of_field = {0};
   s.pieces.of_particle = {0, 1};
-  s.ledger.failures.push_back({1, 0, {}, 2, 3});
+  s.ledger.events.push_back({1, 0, {}, 2, 3, CrackEvent<Dim>::Kind::grew, 1, 4, 5, 6, 7, 8});
   s.ledger.reactions = {Vec<Dim>{}};
   s.ledger.rigid_reactions.resize(1);
   s.ledger.face_areas = {Vec<Dim>{}};

@@ -268,6 +268,9 @@ class ProblemChecker {
       return;
     }
     if (!grid_known_) return;
+    if (crack.growth && !problem_.fracture)
+      add(crack, "growth", fmt::format("the crack \"{}\" grows, but there is no [fracture]", crack.name),
+          "growth follows from J and stress intensities, which [fracture] turns on", "add [fracture]");
     check_segments(crack);
     for (std::size_t k = 0; k < crack.points.size(); ++k)
       if (!in_grid(crack.points[k]))

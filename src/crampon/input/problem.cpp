@@ -229,6 +229,61 @@ const Declaration<FractureInput>& fracture_declaration() {
   return d;
 }
 
+const Declaration<GrowthInput>& growth_declaration() {
+  static const auto d =
+      Declaration<GrowthInput>("growth", "When the tips of a crack grow, where to and how fast. It needs [fracture].")
+          .one_of("criterion", &GrowthInput::criterion, growth_criteria, "when a tip grows, and where to", required)
+          .one_of("alternate", &GrowthInput::alternate, growth_criteria,
+                  "a second criterion, which holds as well until the first has let a tip grow")
+          .choice("ends", &GrowthInput::ends,
+                  {{"both", GrowthInput::Ends::both}, {"start", GrowthInput::Ends::start}, {"end", GrowthInput::Ends::end}},
+                  "which ends of the path grow, where they are tips")
+          .choice("direction", &GrowthInput::direction,
+                  {{"criterion", GrowthDirection::criterion},
+                   {"straight", GrowthDirection::straight},
+                   {"across_opening", GrowthDirection::across_opening},
+                   {"hoop_of_opening", GrowthDirection::hoop_of_opening},
+                   {"initial", GrowthDirection::initial},
+                   {"given", GrowthDirection::given}},
+                  "where a tip grows to: as its criterion says; straight on; across the opening two cells behind it; to the largest hoop "
+                  "stress of "
+                  "opening and sliding there; as the crack ran at the start; along a vector")
+          .quantities("along", &GrowthInput::along, "1", Bounds::any(), "the vector, with direction = \"given\"", Presence::optional,
+                      Length::exactly(2))
+          .quantity("increment", &GrowthInput::increment, "1", Bounds::from_above(0, 5), "cells by which a tip grows at a time")
+          .quantity("largest_speed", &GrowthInput::largest_speed, "m/s", Bounds::positive(),
+                    "of a tip; left out: the speed of Rayleigh waves in the material")
+          .flag("speed_by_drive", &GrowthInput::speed_by_drive,
+                "the speed is largest_speed times 1 - 1/r, with r the energy that drives the tip over what growth takes")
+          .quantity("largest_growth", &GrowthInput::largest_growth, "m", Bounds::positive(),
+                    "a tip stops for good when it has grown so far")
+          .quantity("start", &GrowthInput::start, "s", Bounds::non_negative(), "no tip grows before")
+          .flag("bridged", &GrowthInput::bridged, "the traction law of the crack acts on what grows as well")
+          .quantities("r_curve_growth", &GrowthInput::r_curve_growth, "m", Bounds::non_negative(),
+                      "growth at which r_curve_factor holds, from 0; straight between", Presence::optional, Length::at_least(2))
+          .quantities("r_curve_factor", &GrowthInput::r_curve_factor, "1", Bounds::positive(),
+                      "energy that growth takes over that at the start (R-curve)", Presence::optional, Length::at_least(2))
+          .quantity("rate_speed", &GrowthInput::rate_speed, "m/s", Bounds::positive(),
+                    "growth takes 1 + (v/rate_speed)^rate_exponent of the energy at the speed v; left out: the speed does not matter")
+          .quantity("rate_exponent", &GrowthInput::rate_exponent, "1", Bounds::positive(), "exponent of the speed")
+          .check([](const GrowthInput& in, Diagnostics& diagnostics) {
+            const bool given = in.direction == GrowthDirection::given;
+            if (given != !in.along.empty())
+              diagnostics.add("along", given ? "there is no vector" : "a vector is given, but not used", "",
+                              given ? "add along" : "say direction = \"given\" or remove it");
+            if (!in.along.empty() && in.along[0] == 0 && in.along[1] == 0)
+              diagnostics.add("along", "the vector has no direction", "", "correct it");
+            if (in.r_curve_growth.size() != in.r_curve_factor.size())
+              diagnostics.add("r_curve_factor",
+                              fmt::format("{} numbers for {} of growth", in.r_curve_factor.size(), in.r_curve_growth.size()), "",
+                              "give one for each");
+            for (std::size_t k = 1; k < in.r_curve_growth.size(); ++k)
+              if (!(in.r_curve_growth[k] > in.r_curve_growth[k - 1]))
+                diagnostics.add(fmt::format("r_curve_growth[{}]", k), "growth does not increase", "", "sort the numbers");
+          });
+  return d;
+}
+
 const Declaration<CrackInput>& crack_declaration() {
   static const auto d =
       Declaration<CrackInput>("crack", "A polyline, or an arc divided into segments (2D). Above is to the left of its direction.")
@@ -247,6 +302,7 @@ const Declaration<CrackInput>& crack_declaration() {
                   "only the part of the crack that starts in this region bears the traction")
           .quantity("thickness", &CrackInput::thickness, "m", Bounds::positive(),
                     "extent out of the plane on which the traction acts; left out: that of the bodies")
+          .record("growth", &CrackInput::growth, growth_declaration, "when its tips grow, where to and how fast; left out: they stay")
           .check([](const CrackInput& in, Diagnostics& diagnostics) {
             if (in.points.empty() && !in.arc)
               diagnostics.add("", "neither points nor arc is given", "the crack has no place", "add points or arc");

@@ -21,6 +21,7 @@
 #include "crampon/material/material.hpp"
 #include "crampon/shape/registry.hpp"
 #include "crampon/step/fracture_model.hpp"
+#include "crampon/step/growth_model.hpp"
 #include "crampon/step/transfer.hpp"
 
 namespace crampon {
@@ -166,6 +167,24 @@ struct ArcInput : Located {
   std::int64_t segments = 0;   ///< 0: segments of at most half a cell
 };
 
+/// [[crack]] growth: when it grows, where to and how fast.
+struct GrowthInput : Located {
+  GrowthCriterionSpec criterion, alternate;
+  enum class Ends { both, start, end } ends = Ends::both;
+  using Direction = GrowthDirection;
+  Direction direction = Direction::criterion;
+  std::vector<double> along;                           ///< given
+  double increment = 0.5;                              ///< cells
+  std::optional<double> largest_speed;                 ///< m/s; none: that of Rayleigh waves
+  bool speed_by_drive = false;                         ///< largest_speed (1 - 1/drive)
+  std::optional<double> largest_growth;                ///< m
+  double start = 0;                                    ///< s
+  bool bridged = false;                                ///< the crack's traction law acts on what grows
+  std::vector<double> r_curve_growth, r_curve_factor;  ///< m, 1
+  std::optional<double> rate_speed;                    ///< m/s
+  double rate_exponent = 1;
+};
+
 /// [[crack]]: a polyline, or an arc divided into segments. 2D.
 struct CrackInput : Located {
   std::string name;
@@ -177,6 +196,7 @@ struct CrackInput : Located {
   TractionLawSpec traction;           ///< between its faces as they open (crack/traction/law.hpp)
   RegionPtr traction_region;          ///< vertices that bear it; none: all
   std::optional<double> thickness;    ///< m; default: that of the bodies
+  std::optional<GrowthInput> growth;
 };
 
 /// [fracture]: J and stress intensities at the tips of cracks. 2D.

@@ -16,6 +16,7 @@
 #include "crampon/run/surfaces_at_start.hpp"
 #include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/face_loads.hpp"
+#include "crampon/step/tip_samples.hpp"
 
 namespace crampon {
 
@@ -146,7 +147,7 @@ void build_conditions(const Problem& problem, Model<Dim>& model, std::vector<Dia
   check_contradictions(model, stated, errors);
 }
 
-CrackTraction build_traction(const Problem& problem, const CrackInput& in, const Crack<2>& crack, const Material2D& material, double slack,
+CrackTraction build_traction(const Problem& problem, const CrackInput& in, Crack<2>& crack, const Material2D& material, double slack,
                              std::vector<Diagnostic>& errors) {
   CrackTraction out;
   out.law = in.traction;
@@ -164,8 +165,8 @@ CrackTraction build_traction(const Problem& problem, const CrackInput& in, const
     errors.push_back({in.at("traction_region"), fmt::format("no vertex of the crack \"{}\" lies in the region", in.name),
                       "the traction would act nowhere", "enlarge the region"});
   }
-  out.area = areas_between(crack, bears, material);
-  for (double& area : out.area) area *= out.thickness;
+  crack.traction.area = areas_between(crack, bears, material);
+  for (double& area : crack.traction.area) area *= out.thickness;
   return out;
 }
 
@@ -206,6 +207,37 @@ void build_cracks(const Problem& problem, const BuiltBodies<2>& bodies, BuiltMod
   }
 }
 
+/// Of the fastest material, m/s: c_s (.862 + 1.14 nu)/(1 + nu) (Viktorov, Rayleigh and Lamb Waves).
+double rayleigh_speed(const Model<2>& model) {
+  double fastest = 0;
+  for (const Material<2>& m : model.materials) {
+    const auto elastic = m.law->elasticity();
+    const double nu = elastic ? elastic->lambda / (2 * (elastic->lambda + elastic->mu)) : 0.3;
+    const double shear = elastic ? std::sqrt(elastic->mu / m.law->density()) : 0.5 * m.law->wave_speed(model.stress_state);
+    fastest = std::fmax(fastest, shear * (0.862 + 1.14 * nu) / (1 + nu));
+  }
+  return fastest;
+}
+
+/// h: cell, m; rayleigh: m/s.
+GrowthModel build_growth(const GrowthInput& in, double h, double rayleigh) {
+  GrowthModel out;
+  out.criterion = in.criterion, out.alternate = in.alternate;
+  out.end = {in.ends != GrowthInput::Ends::end, in.ends != GrowthInput::Ends::start};
+  out.direction = in.direction;
+  if (!in.along.empty()) out.along = {{in.along[0], in.along[1]}};
+  out.increment = in.increment * h;
+  out.largest_speed = in.largest_speed.value_or(rayleigh);
+  out.by_rate = in.speed_by_drive;
+  if (in.largest_growth) out.largest_growth = *in.largest_growth;
+  out.start = in.start;
+  out.interval = 0.5 * h / rayleigh;
+  out.bridged = in.bridged;
+  out.resistance.grown = in.r_curve_growth, out.resistance.factor = in.r_curve_factor;
+  out.resistance.speed = in.rate_speed.value_or(0), out.resistance.exponent = in.rate_exponent;
+  return out;
+}
+
 void build_fracture(const Problem& problem, Model<2>& model, State<2>& state) {
   if (!problem.fracture) return;
   const FractureInput& in = *problem.fracture;
@@ -216,6 +248,9 @@ void build_fracture(const Problem& problem, Model<2>& model, State<2>& state) {
   double fastest = 0;
   for (const Material<2>& m : model.materials) fastest = std::fmax(fastest, m.law->wave_speed(model.stress_state));
   fracture.interval = in.interval.value_or(fracture.outer * model.grid.smallest_cell() / fastest);
+  const double h = std::fmax(model.grid.cell[0], model.grid.cell[1]);
+  for (const CrackInput& crack : problem.cracks)
+    model.growth.push_back(crack.growth ? build_growth(*crack.growth, h, rayleigh_speed(model)) : GrowthModel{});
   for (std::size_t c = 0; c < state.cracks.size(); ++c) {
     const Crack<2>& crack = state.cracks.list[c];
     if (crack.closed) continue;
@@ -225,6 +260,7 @@ void build_fracture(const Problem& problem, Model<2>& model, State<2>& state) {
       CrackTip tip;
       tip.crack = static_cast<std::uint32_t>(c);
       tip.end = static_cast<std::uint8_t>(end);
+      tip.initial = original_frame(crack, tip).ahead;
       state.fracture.tips.push_back(tip);
     }
   }

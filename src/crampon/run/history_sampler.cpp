@@ -28,24 +28,30 @@ std::vector<double> HistorySampler<Dim>::row() const {
 
 template <int Dim>
 std::vector<HistoryColumn> event_columns_of() {
-  std::vector<HistoryColumn> c = {{"time", "s"}, {"crack", "1"}};
+  std::vector<HistoryColumn> c = {{"time", "s"}, {"event", "1"}, {"crack", "1"}, {"end", "1"}};
   for (int k = 0; k < Dim; ++k) c.push_back({std::string(1, "xyz"[k]), "m"});
-  c.insert(c.end(), {{"G_I", "J/m2"}, {"G_II", "J/m2"}});
+  c.insert(c.end(), {{"G_I", "J/m2"},
+                     {"G_II", "J/m2"},
+                     {"angle", "rad"},
+                     {"speed", "m/s"},
+                     {"J", "J/m2"},
+                     {"K_I", "Pa m^(1/2)"},
+                     {"K_II", "Pa m^(1/2)"}});
   return c;
 }
 
 template <int Dim>
-std::vector<double> event_row_of(const FailureEvent<Dim>& e) {
-  std::vector<double> row = {e.time, static_cast<double>(e.crack)};
+std::vector<double> event_row_of(const CrackEvent<Dim>& e) {
+  std::vector<double> row = {e.time, static_cast<double>(e.kind), static_cast<double>(e.crack), static_cast<double>(e.end)};
   for (int k = 0; k < Dim; ++k) row.push_back(e.x[k]);
-  row.insert(row.end(), {e.G_I, e.G_II});
+  row.insert(row.end(), {e.G_I, e.G_II, e.angle, e.speed, e.J, e.K_I, e.K_II});
   return row;
 }
 
 #define CRAMPON_INSTANTIATE(DIM)                               \
   template class HistorySampler<DIM>;                          \
   template std::vector<HistoryColumn> event_columns_of<DIM>(); \
-  template std::vector<double> event_row_of(const FailureEvent<DIM>&);
+  template std::vector<double> event_row_of(const CrackEvent<DIM>&);
 CRAMPON_INSTANTIATE(2)
 CRAMPON_INSTANTIATE(3)
 #undef CRAMPON_INSTANTIATE

@@ -32,10 +32,10 @@ class HistorySampler {
   std::vector<std::unique_ptr<Observer<Dim>>> observers_ = make_observers<Dim>();
 };
 
-/// Columns and row of a failure, for events.csv, SI.
+/// Columns and row of an event of a crack, for events.csv, SI.
 template <int Dim>
 std::vector<HistoryColumn> event_columns_of();
 template <int Dim>
-std::vector<double> event_row_of(const FailureEvent<Dim>& event);
+std::vector<double> event_row_of(const CrackEvent<Dim>& event);
 
 }  // namespace crampon

@@ -128,8 +128,8 @@ class Engine final : public Simulation {
   std::vector<HistoryColumn> history_columns() const override { return history_.columns(); }
   std::vector<double> history_row() const override { return history_.row(); }
   std::vector<HistoryColumn> event_columns() const override { return event_columns_of<Dim>(); }
-  std::size_t event_count() const override { return state_.ledger.failures.size(); }
-  std::vector<double> event_row(std::size_t event) const override { return event_row_of(state_.ledger.failures[event]); }
+  std::size_t event_count() const override { return state_.ledger.events.size(); }
+  std::vector<double> event_row(std::size_t event) const override { return event_row_of(state_.ledger.events[event]); }
 
   std::uint64_t state_hash() const override { return hash_state(state_, model_.threads); }
   SavedState save() const override { return save_state(state_); }
@@ -163,17 +163,20 @@ class Engine final : public Simulation {
           fmt::format("the time step of {:.3g} s is longer than the {:.3g} s that the stiffest traction law bears: the run may be unstable",
                       *time_.step, state_.clock.least_traction_time_step));
     }
-    if (!state_.ledger.failures.empty())
-      out.push_back(fmt::format("traction laws failed at {} crack vertices; see events.csv", state_.ledger.failures.size()));
+    const auto count = [&](typename CrackEvent<Dim>::Kind kind) {
+      return std::count_if(state_.ledger.events.begin(), state_.ledger.events.end(), [&](const auto& e) { return e.kind == kind; });
+    };
+    if (const auto failed = count(CrackEvent<Dim>::Kind::failed); failed > 0)
+      out.push_back(fmt::format("traction laws failed at {} crack vertices; see events.csv", failed));
     for (const CrackTip& tip : state_.fracture.tips) {
       const std::string where =
           fmt::format("at the {} of the crack \"{}\"", tip.end == 0 ? "start" : "end", state_.cracks.list[tip.crack].name);
       if (tip.missed > 0) {
-        const std::string why = tip.no_J == NoParameter::none ? "the last look found one" : reason(tip.no_J);
+        const std::string why = tip.now.no_J == NoParameter::none ? "the last look found one" : reason(tip.now.no_J);
         out.push_back(fmt::format("{} of {} looks found no J {}: {}; a disk of {:g} cells about the tip must be free", tip.missed,
                                   tip.missed + tip.found, where, why, std::fmin(FractureModel::least_outer, model_.fracture.outer)));
-      } else if (tip.no_K != NoParameter::none) {
-        out.push_back(fmt::format("there is J but no K {}: {}", where, reason(tip.no_K)));
+      } else if (tip.now.no_K != NoParameter::none) {
+        out.push_back(fmt::format("there is J but no K {}: {}", where, reason(tip.now.no_K)));
       }
     }
     if (state_.ledger.removed > 0) out.push_back(fmt::format("{} particles left the grid and were removed", state_.ledger.removed));

@@ -34,6 +34,7 @@ using Carriers = std::vector<std::vector<Carrier>>;
 /// Tractions on one crack, per vertex; empty without a law.
 template <int Dim>
 struct CrackTractionState {
+  std::vector<double> area;  ///< m2: of the vertex's share of the crack with material on both sides; 0: the law does not act
   std::vector<TractionHistory> history;
   std::vector<Vec<Dim>> force;  ///< on the upper surface in the next step, N
   std::vector<double> stored;   ///< J/m2
@@ -41,7 +42,8 @@ struct CrackTractionState {
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [history, force, stored, between] = self;
+    auto& [area, history, force, stored, between] = self;
+    visit(Member{"area", "m2"}, area);
     visit(Member{"history"}, history);
     visit(Member{"force", "N"}, force);
     visit(Member{"stored", "J/m2"}, stored);

@@ -42,11 +42,17 @@ constexpr const char* reason(NoParameter why) {
   return "";
 }
 
-/// An end of a crack that lies in a body.
-struct CrackTip {
-  std::uint32_t crack = 0;
-  std::uint8_t end = 1;  ///< 0: where the path starts; 1: where it ends
+/// What has become of a tip.
+enum class TipStatus : std::uint8_t {
+  waits,  ///< it has not grown yet
+  grows,
+  joined,    ///< it has met another crack, or its own path
+  left,      ///< ... the edge of the body
+  arrested,  ///< it has grown as far as it may
+};
 
+/// What is found at a tip.
+struct TipParameters {
   double J = std::numeric_limits<double>::quiet_NaN();         ///< of what goes into the tip itself, J/m2
   double J_far = std::numeric_limits<double>::quiet_NaN();     ///< of what comes from afar: tractions of the faces take the rest, J/m2
   double J_across = std::numeric_limits<double>::quiet_NaN();  ///< second component, J/m2
@@ -54,13 +60,10 @@ struct CrackTip {
   double phase = std::numeric_limits<double>::quiet_NaN();   ///< atan2(sliding, opening) behind the tip, rad
   double radius = std::numeric_limits<double>::quiet_NaN();  ///< of the domain, m
   NoParameter no_J = NoParameter::none, no_K = NoParameter::none;
-  std::int64_t found = 0, missed = 0;  ///< how often there was a J since the start, and how often not
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [crack, end, J, J_far, J_across, K_I, K_II, phase, radius, no_J, no_K, found, missed] = self;
-    visit(Member{"crack"}, crack);
-    visit(Member{"end"}, end);
+    auto& [J, J_far, J_across, K_I, K_II, phase, radius, no_J, no_K] = self;
     visit(Member{"J", "J/m2"}, J);
     visit(Member{"J_far", "J/m2"}, J_far);
     visit(Member{"J_across", "J/m2"}, J_across);
@@ -70,18 +73,51 @@ struct CrackTip {
     visit(Member{"radius", "m"}, radius);
     visit(Member{"no_J"}, no_J);
     visit(Member{"no_K"}, no_K);
+  }
+};
+
+/// An end of a crack that lies in a body.
+struct CrackTip {
+  std::uint32_t crack = 0;
+  std::uint8_t end = 1;                ///< 0: where the path starts; 1: where it ends
+  TipParameters now;                   ///< as they were last found
+  std::int64_t found = 0, missed = 0;  ///< how often there was a J since the start, and how often not
+
+  std::uint32_t material = 0;  ///< about the tip, where it was last found
+  TipStatus status = TipStatus::waits;
+  double grown = 0;       ///< since the start, m
+  double speed = 0;       ///< of the last growth, m/s
+  double next_check = 0;  ///< of whether it grows, s
+  Vec<2> initial;         ///< direction at the start
+  bool fired = false;     ///< the first criterion has let it grow
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [crack, end, now, found, missed, material, status, grown, speed, next_check, initial, fired] = self;
+    visit(Member{"crack"}, crack);
+    visit(Member{"end"}, end);
+    visit(Member{"now"}, now);
     visit(Member{"found"}, found);
     visit(Member{"missed"}, missed);
+    visit(Member{"material"}, material);
+    visit(Member{"status"}, status);
+    visit(Member{"grown", "m"}, grown);
+    visit(Member{"speed", "m/s"}, speed);
+    visit(Member{"next_check", "s"}, next_check);
+    visit(Member{"initial"}, initial);
+    visit(Member{"fired"}, fired);
   }
 };
 
 struct Fracture {
   std::vector<CrackTip> tips;
-  double next = 0;  ///< when parameters are due, s
+  double next = 0;      ///< when parameters are due, s
+  double released = 0;  ///< J times the area by which tips have grown, J
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [tips, next] = self;
+    auto& [tips, next, released] = self;
+    visit(Member{"released", "J"}, released);
     visit(Member{"tips"}, tips);
     visit(Member{"next", "s"}, next);
   }

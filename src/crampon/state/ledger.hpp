@@ -70,22 +70,36 @@ struct CohesiveTotals {
   }
 };
 
-/// A vertex whose traction law has failed.
+/// A vertex whose traction law has failed, or a tip that has grown or come to an end.
 template <int Dim>
-struct FailureEvent {
+struct CrackEvent {
+  enum class Kind : std::uint8_t { failed, grew, joined, left, arrested };
   double time = 0;  ///< s
   std::uint64_t crack = 0;
   Vec<Dim> x;                ///< m
-  double G_I = 0, G_II = 0;  ///< dissipated there, J/m2
+  double G_I = 0, G_II = 0;  ///< failed: dissipated there, J/m2
+  Kind kind = Kind::failed;
+  std::uint8_t end = 0;      ///< of the crack, 0: start, 1: end
+  double angle = 0;          ///< by which it turned to the left, rad
+  double speed = 0;          ///< m/s
+  double J = 0;              ///< J/m2
+  double K_I = 0, K_II = 0;  ///< Pa sqrt(m)
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [time, crack, x, G_I, G_II] = self;
+    auto& [time, crack, x, G_I, G_II, kind, end, angle, speed, J, K_I, K_II] = self;
     visit(Member{"time", "s"}, time);
     visit(Member{"crack"}, crack);
     visit(Member{"x", "m"}, x);
     visit(Member{"G_I", "J/m2"}, G_I);
     visit(Member{"G_II", "J/m2"}, G_II);
+    visit(Member{"kind"}, kind);
+    visit(Member{"end"}, end);
+    visit(Member{"angle", "rad"}, angle);
+    visit(Member{"speed", "m/s"}, speed);
+    visit(Member{"J", "J/m2"}, J);
+    visit(Member{"K_I", "Pa m^(1/2)"}, K_I);
+    visit(Member{"K_II", "Pa m^(1/2)"}, K_II);
   }
 };
 
@@ -93,9 +107,9 @@ template <int Dim>
 struct Ledger {
   EnergyTotals energy;
   CohesiveTotals cohesive;
-  std::vector<FailureEvent<Dim>> failures;  ///< since the start
-  std::int64_t removed = 0;                 ///< particles removed on leaving the grid
-  ParticleSums<Dim> left;                   ///< what they took along
+  std::vector<CrackEvent<Dim>> events;  ///< since the start
+  std::int64_t removed = 0;             ///< particles removed on leaving the grid
+  ParticleSums<Dim> left;               ///< what they took along
   std::int64_t most_unsolved_nodes = 0, most_crowded_nodes = 0;
 
   std::vector<Vec<Dim>> reactions;                  ///< per condition, last step, N
@@ -104,11 +118,10 @@ struct Ledger {
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [energy, cohesive, failures, removed, left, most_unsolved_nodes, most_crowded_nodes, reactions, rigid_reactions, face_areas] =
-        self;
+    auto& [energy, cohesive, events, removed, left, most_unsolved_nodes, most_crowded_nodes, reactions, rigid_reactions, face_areas] = self;
     visit(Member{"energy"}, energy);
     visit(Member{"cohesive"}, cohesive);
-    visit(Member{"failures"}, failures);
+    visit(Member{"events"}, events);
     visit(Member{"removed"}, removed);
     visit(Member{"left"}, left);
     visit(Member{"most_unsolved_nodes"}, most_unsolved_nodes);

@@ -1,5 +1,8 @@
 #include "crampon/step/advance.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "crampon/core/parallel.hpp"
 #include "crampon/step/assemble_momentum.hpp"
 #include "crampon/step/instantiate.hpp"
@@ -26,6 +29,7 @@ struct Whether {
   static bool faces_are_loaded(S, W, M m) { return !m.faces.empty(); }
   static bool cracks_bear_tractions(S, W, M m) { return m.any_tractions(); }
   static bool there_are_cracks(S s, W, M) { return !s.cracks.empty(); }
+  static bool growth_is_due(S, W w, M) { return w.now.growth_due; }
   static bool fracture_is_due(S, W w, M) { return w.now.fracture_due; }
   static bool pieces_turn(S s, W, M) { return s.pieces.any(); }
 
@@ -64,13 +68,24 @@ Stage<Dim> series(const char* name, typename Stage<Dim>::When when, std::vector<
   return {name, {}, when, nullptr, nullptr, std::move(lines)};
 }
 
+/// When the next tip may grow, s.
+template <int Dim>
+double next_growth_check(const State<Dim>& state, const Model<Dim>& model) {
+  double next = std::numeric_limits<double>::infinity();
+  for (const CrackTip& tip : state.fracture.tips) {
+    if (may_grow(tip, model.growth[tip.crack])) next = std::fmin(next, tip.next_check);
+  }
+  return next;
+}
+
 template <int Dim>
 void begin_step(const State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, double dt, Watched watched) {
   StepValues& now = work.now;
   now.dt = dt;
   now.watched = watched == Watched::yes;
-  now.fracture_due =
-      model.fracture.on && !state.fracture.tips.empty() && (now.watched || state.clock.time + dt * (1 + 1e-9) >= state.fracture.next);
+  const double end = state.clock.time + dt * (1 + 1e-9);
+  now.growth_due = end >= next_growth_check(state, model);
+  now.fracture_due = model.fracture.on && !state.fracture.tips.empty() && (now.watched || now.growth_due || end >= state.fracture.next);
   now.lead = position_lead(model, dt);
   now.further = now.lead - state.particles.lead;
   // N03 Eq. 35: half at a time for USAVG. The others strain in time with positions: USF to where they are, USL and MUSL along with them.
@@ -222,6 +237,8 @@ std::vector<Stage<Dim>> stages() {
       // Task 7
       once<Dim, find_fracture_parameters<Dim>>("fracture", If::fracture_is_due,
                                                {tips | motion | stress | cracks | tractions | prescribed, none, tips}),
+      once<Dim, grow_cracks<Dim, Shape>>("fracture", If::growth_is_due,
+                                         {tips | momenta | motion | cracks, none, cracks | tractions | tips}),
   };
 }
 

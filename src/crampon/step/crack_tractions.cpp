@@ -63,7 +63,7 @@ StiffestVertex spread_tractions(State<Dim>& state, StepWork<Dim>& work, const Mo
   for (std::size_t c = 0; c < state.cracks.size(); ++c) {
     const Crack<Dim>& crack = state.cracks.list[c];
     CrackTractionState<Dim>& t = state.cracks.list[c].traction;
-    const std::vector<double>& area = model.tractions[c].area;
+    const std::vector<double>& area = t.area;
     const double stiffness = model.tractions[c].law->largest_stiffness();
     const double area_of_cell = area_through_cell(model.grid, model.tractions[c].thickness);
     for (std::size_t v = 0; v < area.size(); ++v) {

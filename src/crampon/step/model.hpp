@@ -21,6 +21,7 @@
 #include "crampon/state/grid.hpp"
 #include "crampon/state/layers.hpp"
 #include "crampon/step/fracture_model.hpp"
+#include "crampon/step/growth_model.hpp"
 #include "crampon/step/loaded_faces.hpp"
 #include "crampon/step/transfer.hpp"
 
@@ -70,8 +71,7 @@ struct VelocityCondition {
 /// A traction law on a crack.
 struct CrackTraction {
   TractionLawSpec law;
-  double thickness = 1;      ///< m
-  std::vector<double> area;  ///< per vertex, m2: of its share of the crack with material on both sides; 0: the law does not act
+  double thickness = 1;  ///< m
   bool acts() const { return law->acts(); }
 };
 
@@ -102,6 +102,7 @@ struct Model {
   std::vector<std::string> bodies;
   std::vector<CrackTraction> tractions;  ///< per crack
   FractureModel fracture;
+  std::vector<GrowthModel> growth;  ///< per crack
   std::vector<VelocityCondition<Dim>> conditions;
   std::vector<SymmetryPlane> symmetries;
   std::vector<Load<Dim>> loads;

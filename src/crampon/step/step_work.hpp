@@ -134,6 +134,7 @@ struct StepValues {
   double further = 0;         ///< by which they lead more than in the last step, s
   double stress_dt = 0;       ///< over which a stress update of the step strains, s
   bool watched = false;       ///< someone will look at the state after the step
+  bool growth_due = false;    ///< tips may grow
   bool fracture_due = false;  ///< fracture parameters are found at its end
   StepTransfer transfer;
   VelocityRule rule;

@@ -182,8 +182,8 @@ std::vector<FaceTraction> take_faces(const State<2>& state, const Model<2>& mode
   const Vec<2> x = crack.original[vertices[0]];
   const auto opening = [&](std::size_t v) { return frame.turned(crack.upper[v] - crack.lower[v]) * vertices.sign(); };
   const auto traction_at = [&](std::size_t v) {
-    if (!(traction.area[v] > 0)) return Vec<2>{};
-    return frame.turned(crack.traction.force[v]) * (-vertices.sign() / traction.area[v]);
+    if (!(crack.traction.area[v] > 0)) return Vec<2>{};
+    return frame.turned(crack.traction.force[v]) * (-vertices.sign() / crack.traction.area[v]);
   };
   for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
     const std::size_t near = vertices[k], far = vertices[k + 1];
@@ -279,19 +279,20 @@ TipRoom find_room(const State<2>& state, const Model<2>& model, const CrackTip& 
 void find_parameters(const State<2>& state, const StepWork<2>& work, const Model<2>& model, const TipWatch& watch, double dt,
                      CrackTip& tip) {
   const Crack<2>& crack = state.cracks.list[tip.crack];
-  CrackTip now;
-  now.crack = tip.crack, now.end = tip.end, now.found = tip.found, now.missed = tip.missed + 1;
+  TipParameters now;
   const TipRoom room = find_room(state, model, tip, watch);
   now.radius = room.radius;
   const double h = longest_side(model);
   if (room.radius < std::fmin(FractureModel::least_outer, model.fracture.outer) * h * (1 - 1e-9)) {
     now.no_J = now.no_K = room.bound;
-    tip = now;
+    tip.now = now;
+    ++tip.missed;
     return;
   }
-  now.missed = tip.missed, now.found = tip.found + 1;
+  ++tip.found;
   const TipFrame frame = original_frame(crack, tip);
   const std::uint32_t material = *material_at(state, model, frame.tip, watch);
+  tip.material = material;
   const TipWeight weight(room.radius * model.fracture.inner / model.fracture.outer, room.radius);
   const std::vector<TipSample> samples = take_samples(state, work, model, frame, watch, material, room.radius, dt);
   const std::vector<FaceTraction> faces = take_faces(state, model, tip, room.radius, &weight);
@@ -325,7 +326,39 @@ void find_parameters(const State<2>& state, const StepWork<2>& work, const Model
     }
     now.K_I = K.I, now.K_II = K.II;
   }
-  tip = now;
+  tip.now = now;
+}
+
+TipState state_of_tip(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWatch& watch) {
+  const Crack<2>& crack = state.cracks.list[tip.crack];
+  const double h = longest_side(model);
+  TipState out;
+  out.J = tip.now.J;
+  out.K = {tip.now.K_I, tip.now.K_II};
+  out.opening = opening_behind(crack, tip, 2 * h);
+  if (const auto elastic = model.materials[tip.material].law->elasticity())
+    out.elastic = PlaneElasticity(elastic->plane_lambda(model.stress_state), elastic->mu);
+  out.time = state.clock.time;
+  out.grown = tip.grown;
+  // Mean Cauchy stress over particles ahead, whose weight falls with the distance in three cells.
+  const TipFrame frame = original_frame(crack, tip), present = present_frame(crack, tip);
+  Tensor2 sum{};
+  double weights = 0;
+  for (const WatchedParticle& w : watch.particles) {
+    if (state.particles.is_padding(w.slot) || !belong_together(model, w.material, tip.material)) continue;
+    const Vec<2> place = frame.turned(state.particles.original[w.slot] - frame.tip);
+    const double r = norm(place) / (3 * h);
+    if (place[0] <= 0 || r > 2) continue;
+    const int l = static_cast<int>(w.slot % lanes);
+    const PackView<2> view(state, model, w.material, w.slot / lanes);
+    const Pack* tau = view.stress();
+    const double to_cauchy = view.report().to_cauchy[l], weight = state.particles.volume(w.slot) * std::exp(-0.5 * r * r);
+    sum[0] += Vec<2>{{tau[0][l], tau[2][l]}} * (to_cauchy * weight);
+    sum[1] += Vec<2>{{tau[2][l], tau[1][l]}} * (to_cauchy * weight);
+    weights += weight;
+  }
+  if (weights > 0) out.ahead = present.turned(Tensor2{sum[0] * (1 / weights), sum[1] * (1 / weights)});
+  return out;
 }
 
 }  // namespace crampon

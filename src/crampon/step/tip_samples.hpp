@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "crampon/crack/criteria/tip_state.hpp"
 #include "crampon/crack/j_integral.hpp"
 #include "crampon/crack/stress_intensity.hpp"
 #include "crampon/step/model.hpp"
@@ -37,6 +38,9 @@ struct TipRoom {
   NoParameter bound = NoParameter::none;
 };
 TipRoom find_room(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWatch& watch);
+
+/// What criteria of growth may ask of a tip whose parameters have just been found.
+TipState state_of_tip(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWatch& watch);
 
 /// Parameters of a tip after a step of dt. dt = 0: as if all were at rest.
 void find_parameters(const State<2>& state, const StepWork<2>& work, const Model<2>& model, const TipWatch& watch, double dt,

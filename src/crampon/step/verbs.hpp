@@ -370,4 +370,9 @@ void check_health(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mode
 template <int Dim>
 void find_fracture_parameters(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
+/// Tips whose time has come grow where their criterion says so (docs/theory/fracture.md, growth): a crack gets vertices, and those near its tip new
+/// carriers. Nothing of particles or nodes is changed; the next step finds the new velocity fields.
+template <int Dim, class Shape>
+void grow_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
 }  // namespace crampon

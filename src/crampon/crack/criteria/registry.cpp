@@ -32,7 +32,7 @@ Family<GrowthCriterionSpec>& growth_criteria() {
     add_growth_criterion<MaxEnergyRelease>(f);
     add_growth_criterion<StrainEnergyDensity>(f);
     add_growth_criterion<MixedPower>(f);
-    add_growth_criterion<EnergyBalance>(f);
+    add_growth_criterion<EnergyDrivenGrowth>(f);
     add_growth_criterion<SteadyState>(f);
     add_growth_criterion<CriticalOpening>(f);
     add_growth_criterion<MaxPrincipalStress>(f);

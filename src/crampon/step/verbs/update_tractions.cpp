@@ -14,7 +14,7 @@ void update_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& 
     const Crack<Dim>& crack = state.cracks.list[c];
     const CrackTraction& traction = model.tractions[c];
     CrackTractionState<Dim>& t = state.cracks.list[c].traction;
-    const std::vector<double>& area = traction.area;
+    const std::vector<double>& area = t.area;
     const std::vector<Vec<Dim>> normals = traction.acts() ? vertex_normals(crack) : std::vector<Vec<Dim>>{};
     const bool from_outside = traction.law->from_outside();
     for (std::size_t v = 0; v < area.size(); ++v) {
@@ -29,7 +29,7 @@ void update_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& 
         t.force[v] = (frame.down * now.normal - frame.tangent * now.shear) * area[v];
         t.stored[v] = now.stored;
         if (history.failed != 0) {
-          state.ledger.failures.push_back(
+          state.ledger.events.push_back(
               {end, c, present_crack(state, work, crack).plane[v], history.dissipated_normal, history.dissipated_shear});
           t.force[v] = {};
           t.stored[v] = 0;
