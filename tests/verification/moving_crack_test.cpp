@@ -131,5 +131,41 @@ contact = {{ law = "frictionless" }}
   }
 }
 
+// A crack right through a plate and through particles, in either sense. Its sides fly apart without deforming: each surface point goes with its side,
+// and particles on the crack, which may count as of either, carry none. A step of contact before they part turns them by a little.
+TEST(CrackThroughParticles, PartsThemAsNodesDo) {
+  for (const auto& [dx, dy] : std::vector<std::pair<double, double>>{{1, 0}, {1, 1}, {1, -1}, {2, 1}, {-1, 2}, {0, 1}}) {
+    for (const double sense : {1., -1.}) {
+      const double x = sense * dx, y = sense * dy, far = dx * dx + dy * dy > 2 ? 4 : 7;  // out of the plate
+      // Left of the path is above. A particle lies at (10.25, 10.25).
+      const std::string above = fmt::format("({0}*(y - 10.25) - ({1})*(x - 10.25) > -1e-6)", x, y);
+      const auto s = make(fmt::format(R"in(
+[grid]
+origin = [0, 0]
+size = [20, 20]
+cell = 1
+[time]
+steps = 20
+{}
+[[body]]
+name = "plate"
+material = "m"
+shape = {{ kind = "rectangle", low = [5, 5], high = [15, 15] }}
+velocity = [{{ expression = "{} ? {} : 0", unit = "m/s" }}, {{ expression = "{} ? {} : 0", unit = "m/s" }}]
+[[crack]]
+name = "c"
+points = [[{}, {}], [{}, {}]]
+)in",
+                                      material("elastic_large_rotation", 1e6), above, -0.3 * y, above, 0.3 * x, 10.25 - far * x,
+                                      10.25 - far * y, 10.25 + far * x, 10.25 + far * y));
+      run(*s);
+      const double apart = 0.3 * std::hypot(x, y) * s->time();
+      EXPECT_NEAR(value(*s, "opening_min.c"), apart, 0.02 * apart) << x << " " << y;
+      EXPECT_NEAR(value(*s, "opening_max.c"), apart, 0.02 * apart) << x << " " << y;
+      EXPECT_NEAR(value(*s, "sliding_max.c"), 0, 0.04 * apart);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace crampon::test

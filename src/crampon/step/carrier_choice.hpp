@@ -109,24 +109,14 @@ class CarrierChoice {
 
   /// Particles seen within reach, of the velocity field of the nearest one, with their images in mirrors.
   std::vector<Candidate> candidates(const Vec<Dim>& x, const Vec<Dim>& from, double reach) const {
-    std::vector<Candidate> found;
-    std::vector<Vec<Dim>> places;
+    std::vector<Candidate> found, seen;
     map_.for_box(x, reach, [&](const typename ParticleMap<Dim>::Entry& e) {
       const Vec<Dim> place = state_.particles.position(e.slot);
       const Vec<Dim> y = in_cells(place - x);
       if (!within(y, reach)) return;
       found.push_back({y, e.id, e.slot, e.field, 0});
-      places.push_back(place);
+      if (is_seen(place, from)) seen.push_back(found.back());
     });
-    std::vector<Candidate> seen;
-    constexpr std::size_t at_once = most_nodes<Dim>;
-    for (std::size_t first = 0; first < places.size(); first += at_once) {
-      const std::size_t count = std::min(at_once, places.size() - first);
-      const auto hidden = surroundings_.hidden(from, {places.data() + first, count});
-      for (std::size_t i = 0; i < count; ++i) {
-        if (!hidden[i]) seen.push_back(found[first + i]);
-      }
-    }
     if (seen.empty()) return seen;
     const Candidate& nearest =
         *std::min_element(seen.begin(), seen.end(), [](const Candidate& a, const Candidate& b) { return dot(a.y, a.y) < dot(b.y, b.y); });
@@ -154,11 +144,15 @@ class CarrierChoice {
     return seen;
   }
 
+  /// A particle on a crack, or within rounding of it, carries neither side: to which it belongs may differ from segment to segment. So the place a hair
+  /// beyond it must be seen.
+  bool is_seen(const Vec<Dim>& place, const Vec<Dim>& from) const { return !surroundings_.parted(place + (place - from) * 1e-6, from); }
+
   /// Cracks and their images behind the mirror part points as they part them in the whole body.
   bool seen_in_mirror(const SymmetryPlane& mirror, const Vec<Dim>& from, Vec<Dim> place) const {
     const auto k = static_cast<std::size_t>(mirror.axis);
     place[k] = 2 * mirror.at - place[k];
-    return surroundings_.hidden(from, {&place, 1}).none();
+    return is_seen(place, from);
   }
   Vec<Dim> in_cells(Vec<Dim> d) const {
     for (std::size_t k = 0; k < Dim; ++k) d[k] *= model_.grid.inverse_cell[k];

@@ -172,10 +172,10 @@ void PointFields<Dim>::for_crossings(const Vec<Dim>& from, std::span<const Vec<D
 }
 
 template <int Dim>
-std::bitset<most_nodes<Dim>> PointFields<Dim>::hidden(const Vec<Dim>& from, std::span<const Vec<Dim>> places) const {
-  std::bitset<most_nodes<Dim>> hidden;
-  for_crossings(from, places, [&](CrackId, std::size_t i) { hidden[i] = true; });
-  return hidden;
+bool PointFields<Dim>::parted(const Vec<Dim>& particle, const Vec<Dim>& point) const {
+  bool parted = false;
+  for_crossings(particle, {&point, 1}, [&](CrackId, std::size_t) { parted = true; });
+  return parted;
 }
 
 template <int Dim>

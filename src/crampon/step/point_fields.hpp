@@ -3,7 +3,6 @@
 /// the material on its side. Planes and surface points of cracks ask here, and so does whoever needs a field beside a crack.
 
 #include <array>
-#include <bitset>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -68,8 +67,8 @@ class PointFields {
   /// little inside the body.
   Vec<Dim> beside(const Vec<Dim>& vertex, const Vec<Dim>& out) const;
 
-  /// Bit i is set when a crack lies between `from` and place i, of up to most_nodes<Dim>.
-  std::bitset<most_nodes<Dim>> hidden(const Vec<Dim>& from, std::span<const Vec<Dim>> places) const;
+  /// Does a crack lie between a particle and a point, which is not on a crack? A particle on a crack counts as above, as it does for nodes.
+  bool parted(const Vec<Dim>& particle, const Vec<Dim>& point) const;
 
  private:
   template <class F>
