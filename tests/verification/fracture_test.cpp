@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -359,6 +360,165 @@ TEST(FractureParameters, TurnWithTheProblem) {
   run(*a), run(*b);
   for (const char* column : {"J.a.start", "J.a.end", "K_I.a.end", "K_II.a.end", "J_across.a.end", "phase.a.end", "K_II.a.start"}) {
     EXPECT_NEAR(value(*a, column), value(*b, column), 1e-9 * (1 + std::fabs(value(*a, column)))) << column;
+  }
+}
+
+/// What an event of a crack says, by the names of its columns.
+double said(const Simulation& s, std::size_t event, const std::string& column) {
+  const auto columns = s.event_columns();
+  const auto row = s.event_row(event);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].name == column) return row[i];
+  }
+  throw std::runtime_error("no column " + column);
+}
+enum Happened { grew = 1, joined = 2, left = 3, arrested = 4 };
+std::vector<int> ends_of(const Simulation& s) {  // of all tips, other than mere growth
+  std::vector<int> all;
+  for (std::size_t e = 0; e < s.event_count(); ++e) {
+    if (const int kind = static_cast<int>(said(s, e, "event")); kind != grew) all.push_back(kind);
+  }
+  return all;
+}
+
+/// A plate that bears a pull and lets its crack grow.
+std::string growing(Plate p, const std::string& growth, double periods = 1) {
+  std::string text = text_of(p, periods);
+  const std::string end = "]]\n[[load]]";
+  return text.replace(text.find(end), end.size(), "]]\ngrowth = { " + growth + " }\n[[load]]");
+}
+
+// Straight through the plate, at both ends alike, with the energy accounted for.
+class StraightGrowth : public ::testing::TestWithParam<const char*> {};
+TEST_P(StraightGrowth, PartsThePlate) {
+  Plate p;
+  p.shape_functions = GetParam(), p.wide = p.high = 2;
+  const auto s = make(growing(p, "criterion = { law = \"critical_j\", toughness = 6e-7 }", 1.5));
+  double most = 0;
+  run(*s, [&](Simulation& now) { most = std::fmax(most, std::fabs(value(now, "energy_closure"))); });
+  EXPECT_EQ(ends_of(*s), (std::vector<int>{left, left}));
+  // From edge to edge, and by less than one growth beyond each.
+  EXPECT_GT(value(*s, "crack_length.c"), 4);
+  EXPECT_LT(value(*s, "crack_length.c"), 4.105) << "each path bends a little";
+  // Rounding decides on which side of a tip the node is that it meets, and J there differs by a node that opens: the path stays within a third of a cell.
+  for (std::size_t e = 0; e < s->event_count(); ++e) EXPECT_NEAR(said(*s, e, "y"), 0, 0.033) << e;
+  EXPECT_LT(most, 0.01 * 0.5 * sigma * sigma / E * 16) << "of the strain energy of the plate";
+  EXPECT_GT(value(*s, "fracture_energy"), 0);
+  EXPECT_GT(value(*s, "opening_min.c"), 0);
+}
+INSTANTIATE_TEST_SUITE_P(Shapes, StraightGrowth, ::testing::ValuesIn(all_shape_functions()));
+
+// A slanted crack turns to run across the pull. Its first turn is the hoop angle of the intensities there; half a turn of the plate takes one end into
+// the other.
+class SlantedGrowth : public ::testing::TestWithParam<Plate> {};
+TEST_P(SlantedGrowth, TurnsAcrossThePull) {
+  const Plate& p = GetParam();
+  // The crack is held until the plate is at rest.
+  const auto s = make(growing(
+      p,
+      fmt::format("criterion = {{ law = \"max_hoop_stress\", K_Ic = 1e-6 }}, start = {}, largest_growth = 0.6", 8 * p.high / wave_speed()),
+      3));
+  run(*s);
+  ASSERT_GE(s->event_count(), 20u);
+  const double endless = p.degrees;  // tan = K_II/K_I of an endless plate
+  const double K = std::tan(endless * M_PI / 180), hoop = -std::acos((3 * K * K + std::sqrt(1 + 8 * K * K)) / (1 + 9 * K * K)) * 180 / M_PI;
+  for (std::size_t e = 0; e < 2; ++e) EXPECT_NEAR(said(*s, e, "angle") * 180 / M_PI, hoop, 4) << "degrees";
+  EXPECT_EQ(ends_of(*s), (std::vector<int>{arrested, arrested}));
+  for (std::size_t e = 0; e < s->event_count(); ++e) {  // the ends run as images of each other
+    EXPECT_LT(std::fabs(said(*s, e, "angle")), 1.3);
+  }
+  const std::size_t last = s->event_count() - 1;
+  EXPECT_NEAR(said(*s, last, "x"), -said(*s, last - 1, "x"), 0.05) << "half a cell";
+  EXPECT_NEAR(said(*s, last, "y"), -said(*s, last - 1, "y"), 0.05);
+  // It has run .6 from the end of the slanted part, mostly along the x axis.
+  const double end_x = std::cos(p.degrees * M_PI / 180), end_y = std::sin(p.degrees * M_PI / 180);
+  EXPECT_GT(std::fabs(said(*s, last, "x")) - end_x, 0.55);
+  EXPECT_LT(std::fabs(std::fabs(said(*s, last, "y")) - end_y), 0.2);
+  EXPECT_NEAR(value(*s, "crack_length.c"), 3.2, 0.01);
+}
+std::vector<Plate> slanted_growths() {
+  std::vector<Plate> all;
+  for (const double degrees : {45., 20., 35.}) {
+    for (const char* shape : {"gimp", "linear", "bspline"}) {
+      Plate p;
+      p.shape_functions = shape, p.degrees = degrees, p.wide = p.high = 3;
+      all.push_back(p);
+    }
+  }
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(Angles, SlantedGrowth, ::testing::Values(slanted_growths()[0]));
+INSTANTIATE_TEST_SUITE_P(AnglesFull, SlantedGrowth, ::testing::ValuesIn(slanted_growths()));
+
+// At one speed, as long as it may.
+TEST(Growth, KeepsItsSpeedAndStops) {
+  Plate p;
+  p.wide = p.high = 2;
+  const double speed = 0.2;
+  const auto s = make(growing(
+      p, fmt::format("criterion = {{ law = \"steady_state\", toughness = 1e-7, speed = {} }}, largest_growth = 0.4, ends = \"end\"", speed),
+      1));
+  run(*s);
+  ASSERT_GE(s->event_count(), 8u);
+  for (std::size_t e = 0; e < s->event_count(); ++e) {
+    EXPECT_EQ(said(*s, e, "end"), 1);
+    EXPECT_EQ(said(*s, e, "speed"), speed);
+    const double grown = said(*s, e, "x") - said(*s, 0, "x"), since = said(*s, e, "time") - said(*s, 0, "time");
+    EXPECT_NEAR(grown, speed * since, 1.5 * 0.0345 * speed) << "a step takes .0345 s, and a check is late by less than one";
+  }
+  EXPECT_EQ(ends_of(*s), (std::vector<int>{arrested}));
+  EXPECT_EQ(s->event_count(), 8u) << "half a cell at a time";
+  EXPECT_NEAR(value(*s, "crack_length.c"), 2.4, 3e-3);
+}
+
+// A crack that runs into another one ends there, and so does one that meets its own path.
+TEST(Growth, EndsAtAnotherCrack) {
+  for (const double slant : {0., 0.3}) {
+    Plate p;
+    p.wide = p.high = 2;
+    std::string text = growing(p, "criterion = { law = \"critical_j\", toughness = 6e-7 }, direction = \"straight\"", 1.5);
+    text += fmt::format("[[crack]]\nname = \"bar\"\npoints = [[{}, -0.6], [{}, 0.6]]\n", 1.6 - slant, 1.6 + slant);
+    const auto s = make(text);
+    run(*s);
+    const std::vector<int> ends = ends_of(*s);
+    ASSERT_EQ(std::count(ends.begin(), ends.end(), joined), 1) << slant;
+    ASSERT_EQ(std::count(ends.begin(), ends.end(), left), 1) << slant;
+    for (std::size_t e = 0; e < s->event_count(); ++e) {
+      if (static_cast<int>(said(*s, e, "event")) == joined) {
+        EXPECT_NEAR(said(*s, e, "x"), 1.6, 0.01) << "m: the other crack is there, a tenth of a cell";
+      }
+    }
+  }
+}
+
+// Any number of threads, and saved and loaded between two growths: the same bits.
+TEST(Growth, IsTheSameWithThreadsAndAfterLoading) {
+  Plate p;
+  p.degrees = 25, p.wide = p.high = 1.6;
+  const std::string text = growing(p, "criterion = { law = \"critical_j\", toughness = 3e-7 }", 0.6);
+  const auto a = make(text, {}, 1), b = make(text, {}, 3);
+  for (int step = 0; !a->finished(); ++step) {
+    a->step(a->end_time()), b->step(b->end_time());
+    ASSERT_EQ(a->state_hash(), b->state_hash()) << step;
+    if (step % 17 == 16) {
+      const auto c = make(text, {}, 2);
+      c->load(a->save());
+      a->step(a->end_time()), b->step(b->end_time()), c->step(c->end_time());
+      ASSERT_EQ(a->state_hash(), c->state_hash()) << step;
+    }
+  }
+  EXPECT_GT(a->event_count(), 10u);
+}
+
+TEST(Growth, NeedsFracture) {
+  Plate p;
+  std::string text = growing(p, "criterion = { law = \"critical_j\", toughness = 3e-7 }");
+  text = text.substr(0, text.find("[fracture]"));
+  try {
+    make(text);
+    FAIL() << "no complaint";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("there is no [fracture]"), std::string::npos) << error.what();
   }
 }
 

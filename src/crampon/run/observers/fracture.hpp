@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 
 #include "crampon/run/observers/observer.hpp"
@@ -13,6 +14,9 @@ class FractureParameters final : public Observer<Dim> {
   };
   struct Length {
     double length = 0;  ///< m
+  };
+  struct Released {
+    double energy = 0;  ///< J
   };
 
  public:
@@ -44,9 +48,21 @@ class FractureParameters final : public Observer<Dim> {
     };
     return all;
   }
+  static const auto& released_table() {
+    static const std::vector<Column<Released>> all = {
+        {{"fracture_energy", "J",
+          "what tips have taken by their J as they grew, since the start; where cracks grow. A face that comes free lets its energy go as "
+          "waves, so "
+          "that it is in the balance already: energy_closure does not count this column",
+          "sum of J times the area by which a tip grows"},
+         [](const Released& r, int) { return r.energy; }},
+    };
+    return all;
+  }
   static std::vector<ColumnDescription> describe() {
     std::vector<ColumnDescription> all = descriptions_in(tip_table());
     for (ColumnDescription& d : descriptions_in(length_table())) all.push_back(std::move(d));
+    for (ColumnDescription& d : descriptions_in(released_table())) all.push_back(std::move(d));
     return all;
   }
 
@@ -61,6 +77,9 @@ class FractureParameters final : public Observer<Dim> {
         for (std::size_t v = 1; v < crack.plane.size(); ++v) l.length += norm(crack.plane[v] - crack.plane[v - 1]);
         cells.add<Dim>(length_table(), l, crack.name);
       }
+      const auto& growth = now.model.growth;
+      if (std::any_of(growth.begin(), growth.end(), [](const GrowthModel& g) { return g.acts(); }))
+        cells.add<Dim>(released_table(), Released{now.state.fracture.released});
     }
   }
 };

@@ -171,9 +171,10 @@ void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, Crack
   const TipFrame frame = present_frame(crack, tip);
   const double h = std::fmax(model.grid.cell[0], model.grid.cell[1]), normal_segment = 0.5 * h;
   const Vec<2> e = turned_left(frame.ahead, g.angle);
-  double length = std::fmin(growth.increment, growth.largest_growth - tip.grown);
+  const double rest = growth.largest_growth - tip.grown;
+  double length = std::fmin(growth.increment, rest);
   TipStatus status = TipStatus::grows;
-  if (length >= growth.largest_growth - tip.grown) status = TipStatus::arrested;
+  if (rest - length < 1e-6 * growth.increment) status = TipStatus::arrested;
 
   const double looks = length + 0.25 * h, met = looks * way_to_cracks(state, tip, frame.tip, frame.tip + e * looks);
   if (met <= looks) {
@@ -196,11 +197,13 @@ void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, Crack
   choose_anew(state, work, model, tip, count);
   if (growth.bridged && !crack.traction.area.empty()) lay_tractions(crack, tip, count, model.tractions[tip.crack].thickness);
 
+  // What a check is late, since steps end when they end, is not lost for the speed.
+  const double since = tip.status == TipStatus::grows ? std::fmax(tip.next_check, state.clock.time - work.now.dt) : state.clock.time;
   tip.status = status;
   tip.grown += length;
   tip.speed = g.speed;
   if (std::isfinite(tip.now.J)) state.fracture.released += tip.now.J * length * material.thickness;
-  tip.next_check = state.clock.time + length / g.speed;
+  tip.next_check = since + length / g.speed;
   using Kind = typename CrackEvent<Dim>::Kind;
   CrackEvent<Dim> event{state.clock.time, tip.crack,   frame.tip + e * length, 0, 0, Kind::grew, tip.end, g.angle, g.speed, tip.now.J,
                         tip.now.K_I,      tip.now.K_II};
