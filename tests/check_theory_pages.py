@@ -29,6 +29,7 @@ PAGES = {
     "material": [("materials.md", "`%s`")],
     "contact_law": [("contact.md", "`%s`")],
     "traction_law": [("traction.md", "`%s`")],
+    "growth_criterion": [("fracture.md", "`%s`")],
     "shape_functions": [("step.md", "`%s`"), ("kinematics.md", "`shape/%s" + ".hpp`")],
 }
 NOT_LAWS = {"traction_law": {"none"}}
@@ -49,7 +50,8 @@ def complaints(schema):
 def self_test(schema):
     """A further word in each family must bring one complaint for each of its pages."""
     schema["properties"]["method"]["properties"]["shape_functions"]["enum"].append("unheard_of")
-    for choices in [schema["properties"]["material"]["items"], schema["definitions"]["contact_law"], schema["definitions"]["traction_law"]]:
+    for choices in [schema["properties"]["material"]["items"], schema["definitions"]["contact_law"], schema["definitions"]["traction_law"],
+                    schema["definitions"]["growth_criterion"]]:
         choices.get("oneOf", choices.get("anyOf")).append({"properties": {"law": {"enum": ["unheard_of"]}}})
     found = complaints(schema)
     expected = sum(len(pages) for pages in PAGES.values())
