@@ -122,6 +122,32 @@ TEST(JIntegral, SeesNeitherUniformStressNorTurns) {
   });
 }
 
+// A stress along the crack makes the faces differ in energy where they slide: the second component needs them, and then does not depend on the radius.
+TEST(JIntegral, CountsTheEnergyOfFaces) {
+  const double T = 2e5;
+  const Tensor2 along = {Vec<2>{{T / plane_stress.modulus, 0}}, Vec<2>{{0, -nu * T / plane_stress.modulus}}};
+  const StressIntensity K{1e6, 0.4e6};
+  std::vector<CrackSideSample> faces;
+  for (double r = 0.01; r < outer; r += 0.02) {
+    for (const bool is_left : {true, false}) {
+      CrackSideSample f;
+      f.place = {{-r, 0}}, f.normal = {{0, is_left ? -1. : 1.}}, f.length = 0.02, f.is_left = is_left;
+      f.gradient = tip_field(plane_stress, K, r, is_left ? std::numbers::pi : -std::numbers::pi).gradient;
+      for (std::size_t i = 0; i < 2; ++i) f.gradient[i] += along[i];
+      f.stress = stress_of(plane_stress, f.gradient);
+      f.energy = energy_of(f.stress, f.gradient);
+      faces.push_back(f);
+    }
+  }
+  const auto samples = static_field(plane_stress, K, along, {{0, 0}}, 0);
+  const double across = -2 * K.I * K.II / plane_stress.modulus;
+  for (const double radius : {3., 4., 5.}) {
+    const TipWeight disk(0.4 * radius, radius);
+    EXPECT_NEAR(j_integral(samples, disk, {}, faces)[1], across, 0.03 * std::fabs(across)) << radius;
+    EXPECT_GT(std::fabs(j_integral(samples, disk, {})[1] - across), 0.06 * std::fabs(across)) << "without faces";
+  }
+}
+
 TEST(Interaction, TellsOpeningFromSliding) {
   for (const PlaneElasticity& elastic : {plane_strain, plane_stress}) {
     for_places([&](const Vec<2>& offset, double angle) {

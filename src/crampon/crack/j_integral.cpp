@@ -2,7 +2,8 @@
 
 namespace crampon {
 
-Vec<2> j_integral(std::span<const TipSample> samples, const TipWeight& weight, std::span<const FaceTraction> faces) {
+Vec<2> j_integral(std::span<const TipSample> samples, const TipWeight& weight, std::span<const FaceTraction> tractions,
+                  std::span<const CrackSideSample> faces) {
   Vec<2> J;
   for (const TipSample& s : samples) {
     const double r = norm(s.place), q = weight.at(r);
@@ -17,7 +18,8 @@ Vec<2> j_integral(std::span<const TipSample> samples, const TipWeight& weight, s
       J[k] += s.area * (flux + s.density * source * q);
     }
   }
-  for (const FaceTraction& f : faces) J[0] += f.weight * dot(f.traction, f.opening_step);
+  for (const FaceTraction& f : tractions) J[0] += f.weight * dot(f.traction, f.opening_step);
+  for (const CrackSideSample& f : faces) J += f.normal * (weight.at(norm(f.place)) * f.energy * f.length);
   return J;
 }
 

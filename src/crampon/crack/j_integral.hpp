@@ -13,10 +13,22 @@ struct FaceTraction {
   double near = 0, far = 0;  ///< distances of its ends from the tip, m
 };
 
+/// One side of a piece of crack: what the material along it holds.
+struct CrackSideSample {
+  Vec<2> place;         ///< of its middle, m
+  Vec<2> normal;        ///< out of the material
+  double length = 0;    ///< m
+  bool is_left = true;  ///< of the crack, seen towards the tip
+  Tensor2 stress{}, gradient{};
+  double energy = 0;  ///< of stress work and motion, J/m3
+};
+
 /// J of a tip, in its frame, J/m2: what goes into the tip if it moves on along the first axis, or along the second. As a sum over particles
 /// (docs/theory/fracture.md, J as an integral over the domain):
-///   J_k = sum A { [P_iJ u_i,k - (W + K) delta_kJ] q,J + rho [a_i u_i,k - v_i v_i,k] q } + sum q T . d(opening),
-/// with K the kinetic energy. Tractions of the faces take their part on the way.
-Vec<2> j_integral(std::span<const TipSample> samples, const TipWeight& weight, std::span<const FaceTraction> faces);
+///   J_k = sum A { [P_iJ u_i,k - (W + K) delta_kJ] q,J + rho [a_i u_i,k - v_i v_i,k] q } + sum q T . d(opening) + sum l q (W + K) n_k,
+/// with K the kinetic energy. Tractions of the faces take their part on the way. The last sum is over both faces of the crack: along the first axis it is
+/// nothing unless the path bends.
+Vec<2> j_integral(std::span<const TipSample> samples, const TipWeight& weight, std::span<const FaceTraction> tractions,
+                  std::span<const CrackSideSample> faces = {});
 
 }  // namespace crampon

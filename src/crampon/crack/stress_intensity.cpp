@@ -19,10 +19,11 @@ TipField tip_field(const PlaneElasticity& elastic, const StressIntensity& K, dou
 }
 
 StressIntensity interaction_integral(std::span<const TipSample> samples, const TipWeight& weight, const TipPath& path,
-                                     const PlaneElasticity& elastic, std::span<const FaceTraction> faces) {
+                                     const PlaneElasticity& elastic, std::span<const FaceTraction> tractions,
+                                     std::span<const CrackSideSample> faces) {
   double I[2] = {0, 0};
   // The known field opens the crack by (kappa + 1)/mu sqrt(r/2 pi) {K_II, K_I}.
-  for (const FaceTraction& f : faces) {
+  for (const FaceTraction& f : tractions) {
     const double step = (elastic.kappa + 1) / elastic.shear * (std::sqrt(f.near) - std::sqrt(f.far)) / std::sqrt(2 * std::numbers::pi);
     I[0] += f.weight * f.traction[1] * step;
     I[1] += f.weight * f.traction[0] * step;
@@ -41,6 +42,20 @@ StressIntensity interaction_integral(std::span<const TipSample> samples, const T
         inertia += s.inertia[i] * known.gradient[i][0];
       }
       I[mode] += s.area * (flux - work * slope[0] + s.density * inertia * q);
+    }
+  }
+  // Where the path bends, the known field has tractions on the faces.
+  for (const CrackSideSample& f : faces) {
+    const double r = norm(f.place), q = weight.at(r), theta = path.angle(r) - (f.is_left ? 0 : 2 * std::numbers::pi);
+    if (!(r > 0) || q == 0) continue;
+    for (int mode = 0; mode < 2; ++mode) {
+      const TipField known = tip_field(elastic, mode == 0 ? StressIntensity{1, 0} : StressIntensity{0, 1}, r, theta);
+      double work = 0, across = 0;
+      for (std::size_t i = 0; i < 2; ++i) {
+        work += dot(f.stress[i], known.gradient[i]);
+        across += dot(known.stress[i], f.normal) * f.gradient[i][0];
+      }
+      I[mode] += (work * f.normal[0] - across) * q * f.length;
     }
   }
   return {0.5 * elastic.modulus * I[0], 0.5 * elastic.modulus * I[1]};

@@ -31,7 +31,8 @@ TipField tip_field(const PlaneElasticity& elastic, const StressIntensity& K, dou
 
 /// By the interaction integral: J of the sum of the fields and a known field, less J of each (docs/theory/fracture.md, stress intensities).
 StressIntensity interaction_integral(std::span<const TipSample> samples, const TipWeight& weight, const TipPath& path,
-                                     const PlaneElasticity& elastic, std::span<const FaceTraction> faces);
+                                     const PlaneElasticity& elastic, std::span<const FaceTraction> tractions,
+                                     std::span<const CrackSideSample> faces = {});
 
 /// J in the proportion of two intensities: J says how large they are together, G = (K_I^2 + K_II^2)/E'. It does not depend on where exactly the
 /// tip is taken to be, as the interaction integral does. Without J both are zero.

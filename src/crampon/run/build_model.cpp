@@ -260,7 +260,7 @@ void build_fracture(const Problem& problem, Model<2>& model, State<2>& state) {
       CrackTip tip;
       tip.crack = static_cast<std::uint32_t>(c);
       tip.end = static_cast<std::uint8_t>(end);
-      tip.initial = original_frame(crack, tip).ahead;
+      tip.initial = original_frame(model, crack, tip).ahead;
       state.fracture.tips.push_back(tip);
     }
   }

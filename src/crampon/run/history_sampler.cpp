@@ -44,7 +44,7 @@ template <int Dim>
 std::vector<double> event_row_of(const CrackEvent<Dim>& e) {
   std::vector<double> row = {e.time, static_cast<double>(e.kind), static_cast<double>(e.crack), static_cast<double>(e.end)};
   for (int k = 0; k < Dim; ++k) row.push_back(e.x[k]);
-  row.insert(row.end(), {e.G_I, e.G_II, e.angle, e.speed, e.J, e.K_I, e.K_II});
+  for (const double value : {e.G_I, e.G_II, e.angle, e.speed, e.J, e.K_I, e.K_II}) row.push_back(value);
   return row;
 }
 

@@ -178,7 +178,7 @@ std::vector<FaceTraction> take_faces(const State<2>& state, const Model<2>& mode
   std::vector<FaceTraction> faces;
   if (!traction.acts()) return faces;
   const TipVertices vertices(crack, tip);
-  const TipFrame frame = present_frame(crack, tip);
+  const TipFrame frame = present_frame(model, crack, tip);
   const Vec<2> x = crack.original[vertices[0]];
   const auto opening = [&](std::size_t v) { return frame.turned(crack.upper[v] - crack.lower[v]) * vertices.sign(); };
   const auto traction_at = [&](std::size_t v) {
@@ -200,10 +200,40 @@ std::vector<FaceTraction> take_faces(const State<2>& state, const Model<2>& mode
   return faces;
 }
 
+/// Both sides of the pieces of crack in the domain: means over the samples beside them.
+std::vector<CrackSideSample> sides_of(const std::vector<Vec<2>>& path, const std::vector<TipSample>& samples, double radius, double h) {
+  std::vector<CrackSideSample> faces;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+    const Vec<2> middle = (path[k] + path[k + 1]) * 0.5, way = path[k] - path[k + 1];
+    if (norm(middle) >= radius) break;
+    const Vec<2> towards = normalized(way), left{{-towards[1], towards[0]}};
+    for (const bool is_left : {true, false}) {
+      CrackSideSample f;
+      f.place = middle, f.length = norm(way), f.is_left = is_left;
+      f.normal = is_left ? -left : left;
+      double weights = 0;
+      for (const TipSample& s : samples) {
+        const Vec<2> y = (s.place - middle) * (1 / h);
+        const double square = dot(y, y);
+        if (square > 1 || (dot(y, left) > 0) != is_left) continue;
+        const double w = s.area * (1 - square) * (1 - square);
+        weights += w;
+        f.energy += w * (s.energy + 0.5 * s.density * dot(s.velocity, s.velocity));
+        for (std::size_t i = 0; i < 2; ++i) f.stress[i] += s.stress[i] * w, f.gradient[i] += s.gradient[i] * w;
+      }
+      if (!(weights > 0)) continue;
+      f.energy *= 1 / weights;
+      for (std::size_t i = 0; i < 2; ++i) f.stress[i] *= 1 / weights, f.gradient[i] *= 1 / weights;
+      faces.push_back(f);
+    }
+  }
+  return faces;
+}
+
 /// Opening at a distance behind the tip, {sliding, opening} of the left side, m.
-Vec<2> opening_behind(const Crack<2>& crack, const CrackTip& tip, double distance) {
+Vec<2> opening_behind(const Model<2>& model, const Crack<2>& crack, const CrackTip& tip, double distance) {
   const TipVertices vertices(crack, tip);
-  const TipFrame frame = present_frame(crack, tip);
+  const TipFrame frame = present_frame(model, crack, tip);
   const auto opening = [&](std::size_t k) { return frame.turned(crack.upper[vertices[k]] - crack.lower[vertices[k]]) * vertices.sign(); };
   double behind = 0;
   for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
@@ -217,20 +247,32 @@ Vec<2> opening_behind(const Crack<2>& crack, const CrackTip& tip, double distanc
   return opening(vertices.size() - 1);
 }
 
-TipFrame frame_of(const std::vector<Vec<2>>& points, const Crack<2>& crack, const CrackTip& tip) {
+/// The direction of a tip is that of the chord from where its path is `chord` away from it: a kink of a fraction of a cell says little yet.
+TipFrame frame_of(const std::vector<Vec<2>>& points, const Crack<2>& crack, const CrackTip& tip, double chord) {
   const TipVertices vertices(crack, tip);
+  const Vec<2>& x = crack.original[vertices[0]];
+  for (std::size_t k = 1; k < vertices.size(); ++k) {
+    const double before = norm(crack.original[vertices[k - 1]] - x), here = norm(crack.original[vertices[k]] - x);
+    if (here < chord && k + 1 < vertices.size()) continue;
+    const double s = here > chord && here > before ? (chord - before) / (here - before) : 1;
+    return {points[vertices[0]], points[vertices[k - 1]] * (1 - s) + points[vertices[k]] * s};
+  }
   return {points[vertices[0]], points[vertices[1]]};
 }
 
 }  // namespace
 
-TipFrame original_frame(const Crack<2>& crack, const CrackTip& tip) { return frame_of(crack.original, crack, tip); }
-TipFrame present_frame(const Crack<2>& crack, const CrackTip& tip) { return frame_of(crack.plane, crack, tip); }
+TipFrame original_frame(const Model<2>& model, const Crack<2>& crack, const CrackTip& tip) {
+  return frame_of(crack.original, crack, tip, chord_in_cells * longest_side(model));
+}
+TipFrame present_frame(const Model<2>& model, const Crack<2>& crack, const CrackTip& tip) {
+  return frame_of(crack.plane, crack, tip, chord_in_cells * longest_side(model));
+}
 
 std::vector<TipWatch> watch_particles(const State<2>& state, const Model<2>& model) {
   const double reach = (model.fracture.outer + 2) * longest_side(model);  // and a cell of the lattice that finds edges
   std::vector<Vec<2>> places;
-  for (const CrackTip& tip : state.fracture.tips) places.push_back(original_frame(state.cracks.list[tip.crack], tip).tip);
+  for (const CrackTip& tip : state.fracture.tips) places.push_back(original_frame(model, state.cracks.list[tip.crack], tip).tip);
   struct Seen {
     std::uint32_t tip;
     WatchedParticle particle;
@@ -263,7 +305,7 @@ std::vector<TipWatch> watch_particles(const State<2>& state, const Model<2>& mod
 
 TipRoom find_room(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWatch& watch) {
   const double h = longest_side(model);
-  const Vec<2> x = original_frame(state.cracks.list[tip.crack], tip).tip;
+  const Vec<2> x = original_frame(model, state.cracks.list[tip.crack], tip).tip;
   const auto material = material_at(state, model, x, watch);
   if (!material) return {0, NoParameter::outside};
   TipRoom room{model.fracture.outer * h, NoParameter::none};
@@ -280,6 +322,11 @@ void find_parameters(const State<2>& state, const StepWork<2>& work, const Model
                      CrackTip& tip) {
   const Crack<2>& crack = state.cracks.list[tip.crack];
   TipParameters now;
+  if (tip.status == TipStatus::joined || tip.status == TipStatus::left) {  // a tip no more
+    now.no_J = now.no_K = NoParameter::outside;
+    tip.now = now;
+    return;
+  }
   const TipRoom room = find_room(state, model, tip, watch);
   now.radius = room.radius;
   const double h = longest_side(model);
@@ -290,18 +337,22 @@ void find_parameters(const State<2>& state, const StepWork<2>& work, const Model
     return;
   }
   ++tip.found;
-  const TipFrame frame = original_frame(crack, tip);
+  const TipFrame frame = original_frame(model, crack, tip);
   const std::uint32_t material = *material_at(state, model, frame.tip, watch);
   tip.material = material;
   const TipWeight weight(room.radius * model.fracture.inner / model.fracture.outer, room.radius);
   const std::vector<TipSample> samples = take_samples(state, work, model, frame, watch, material, room.radius, dt);
-  const std::vector<FaceTraction> faces = take_faces(state, model, tip, room.radius, &weight);
-  const Vec<2> J = j_integral(samples, weight, faces);
+  const std::vector<FaceTraction> tractions = take_faces(state, model, tip, room.radius, &weight);
+  std::vector<Vec<2>> path;
+  const TipVertices vertices(crack, tip);
+  for (std::size_t k = 0; k < vertices.size(); ++k) path.push_back(frame.turned(crack.original[vertices[k]] - frame.tip));
+  const std::vector<CrackSideSample> faces = sides_of(path, samples, room.radius, h);
+  const Vec<2> J = j_integral(samples, weight, tractions, faces);
   now.J = J[0], now.J_across = J[1];
   now.J_far = J[0];
   for (const FaceTraction& f : take_faces(state, model, tip, std::numeric_limits<double>::infinity(), nullptr))
     now.J_far -= dot(f.traction, f.opening_step);
-  const Vec<2> opening = opening_behind(crack, tip, 2 * h);
+  const Vec<2> opening = opening_behind(model, crack, tip, 2 * h);
   now.phase = std::atan2(opening[0], opening[1]);
 
   const auto elastic = model.materials[material].law->elasticity();
@@ -317,10 +368,7 @@ void find_parameters(const State<2>& state, const StepWork<2>& work, const Model
     const PlaneElasticity plane(elastic->plane_lambda(model.stress_state), elastic->mu);
     StressIntensity K;
     if (model.fracture.mixity == FractureModel::Mixity::interaction) {
-      std::vector<Vec<2>> path;
-      const TipVertices vertices(crack, tip);
-      for (std::size_t k = 0; k < vertices.size(); ++k) path.push_back(frame.turned(crack.original[vertices[k]] - frame.tip));
-      K = share(now.J, interaction_integral(samples, weight, TipPath(path), plane, faces), plane);
+      K = share(now.J, interaction_integral(samples, weight, TipPath(path), plane, tractions, faces), plane);
     } else {
       K = partition_by_opening(now.J, opening, plane);
     }
@@ -335,13 +383,13 @@ TipState state_of_tip(const State<2>& state, const Model<2>& model, const CrackT
   TipState out;
   out.J = tip.now.J;
   out.K = {tip.now.K_I, tip.now.K_II};
-  out.opening = opening_behind(crack, tip, 2 * h);
+  out.opening = opening_behind(model, crack, tip, 2 * h);
   if (const auto elastic = model.materials[tip.material].law->elasticity())
     out.elastic = PlaneElasticity(elastic->plane_lambda(model.stress_state), elastic->mu);
   out.time = state.clock.time;
   out.grown = tip.grown;
   // Mean Cauchy stress over particles ahead, whose weight falls with the distance in three cells.
-  const TipFrame frame = original_frame(crack, tip), present = present_frame(crack, tip);
+  const TipFrame frame = original_frame(model, crack, tip), present = present_frame(model, crack, tip);
   Tensor2 sum{};
   double weights = 0;
   for (const WatchedParticle& w : watch.particles) {

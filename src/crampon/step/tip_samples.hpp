@@ -25,9 +25,12 @@ class TipVertices {
   bool from_start_;
 };
 
+/// Cells between the ends of the chord that gives a tip its direction.
+inline constexpr double chord_in_cells = 2;
+
 /// In the undeformed body, and at present.
-TipFrame original_frame(const Crack<2>& crack, const CrackTip& tip);
-TipFrame present_frame(const Crack<2>& crack, const CrackTip& tip);
+TipFrame original_frame(const Model<2>& model, const Crack<2>& crack, const CrackTip& tip);
+TipFrame present_frame(const Model<2>& model, const Crack<2>& crack, const CrackTip& tip);
 
 /// Particles about each tip of the state, with their velocities and displacement gradients.
 std::vector<TipWatch> watch_particles(const State<2>& state, const Model<2>& model);

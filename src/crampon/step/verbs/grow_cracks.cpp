@@ -48,14 +48,15 @@ double angle_of(const GrowthModel& growth, const GrowthCriterion& criterion, con
 }
 
 /// Does the tip grow now? One that has lost its domain on the way, since an edge or a crack is near, goes straight on as it did.
-std::optional<Growth> decide(const State<2>& state, const CrackTip& tip, const GrowthModel& growth, const TipState& now) {
+std::optional<Growth> decide(const State<2>& state, const Model<2>& model, const CrackTip& tip, const GrowthModel& growth,
+                             const TipState& now) {
   if (state.clock.time < growth.start) return std::nullopt;
   if (tip.now.no_J != NoParameter::none) {
     if (tip.status != TipStatus::grows) return std::nullopt;
     return Growth{0, tip.speed};
   }
   const double resistance = growth.resistance.at(tip.grown, tip.speed);
-  const TipFrame frame = present_frame(state.cracks.list[tip.crack], tip);
+  const TipFrame frame = present_frame(model, state.cracks.list[tip.crack], tip);
   const auto asks = [&](const GrowthCriterion& criterion) -> std::optional<Growth> {
     if (criterion.needs_K() && !(now.K.I == now.K.I)) return std::nullopt;
     const double drive = criterion.drive(now) / resistance;
@@ -168,7 +169,7 @@ template <int Dim, class Shape>
 void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, CrackTip& tip, const Growth& g) {
   const GrowthModel& growth = model.growth[tip.crack];
   Crack<Dim>& crack = state.cracks.list[tip.crack];
-  const TipFrame frame = present_frame(crack, tip);
+  const TipFrame frame = present_frame(model, crack, tip);
   const double h = std::fmax(model.grid.cell[0], model.grid.cell[1]), normal_segment = 0.5 * h;
   const Vec<2> e = turned_left(frame.ahead, g.angle);
   const double rest = growth.largest_growth - tip.grown;
@@ -223,7 +224,7 @@ void grow_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model
       const GrowthModel& growth = model.growth[tip.crack];
       if (!may_grow(tip, growth) || state.clock.time < tip.next_check * (1 - 1e-12)) continue;
       const TipState now = state_of_tip(state, model, tip, work.tips[t]);
-      if (const auto g = decide(state, tip, growth, now)) {
+      if (const auto g = decide(state, model, tip, growth, now)) {
         tip.fired = tip.fired || growth.criterion->drive(now) >= growth.resistance.at(tip.grown, tip.speed);
         grow<Dim, Shape>(state, work, model, tip, *g);
       } else {
