@@ -407,8 +407,9 @@ class CliTest(unittest.TestCase):
         self.assertTrue(inputs)
         for path in inputs:
             with self.subTest(path.name):
-                self.call("run", str(path), "-q", "--steps", "20", "-o", path.stem)
-                self.call("check", path.stem, "--partial")
+                results = path.parent.name + "-" + path.stem
+                self.call("run", str(path), "-q", "--steps", "20", "-o", results)
+                self.call("check", results, "--partial")
 
     def test_bodies_have_names_in_frames(self):
         self.call("run", "small.toml", "-q")

@@ -67,7 +67,9 @@ def carriers(model, x, seen_from):
         near = []
         for p in model.particles:
             y = [(p.x[k] - x[k]) / h for k in range(2)]
-            if max(map(abs, y)) < reach and not model.crossings(seen_from, tuple(p.x))[0]:
+            # A hair beyond the particle: one on a crack is of neither side (docs/decisions/0010-surface-points.md).
+            beyond = tuple(p.x[k] + 1e-6 * (p.x[k] - seen_from[k]) for k in range(2))
+            if max(map(abs, y)) < reach and not model.crossings(beyond, tuple(seen_from))[0]:
                 near.append((p, (1, 1), y))
         for mirror in model.symmetries:
             for p, signs, y in list(near):
