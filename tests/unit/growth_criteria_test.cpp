@@ -70,7 +70,7 @@ double place_of_largest(double low, double high, F f) {
 struct ToyCriterion {
   double pull = 0, toy_angle = 0;
   static constexpr const char* name = "toy_criterion";
-  static constexpr bool needs_K = true;
+  static constexpr bool needs_intensities = true;
   static constexpr bool looks_ahead = false;
   static std::vector<ToyCriterion> examples() { return {{2, 0}}; }
   double drive(const TipState& tip) const { return std::pow(std::fmax(tip.K.I, 0) / pull, 2); }

@@ -382,7 +382,7 @@ std::vector<int> ends_of(const Simulation& s) {  // of all tips, other than mere
 }
 
 /// A plate that bears a pull and lets its crack grow.
-std::string growing(Plate p, const std::string& growth, double periods = 1) {
+std::string growing(const Plate& p, const std::string& growth, double periods = 1) {
   std::string text = text_of(p, periods);
   const std::string end = "]]\n[[load]]";
   return text.replace(text.find(end), end.size(), "]]\ngrowth = { " + growth + " }\n[[load]]");

@@ -20,7 +20,7 @@ class GrowthCriterion {
   /// Where it grows, rad, from the direction of the crack to the left.
   virtual double angle(const TipState& tip) const = 0;
   virtual double speed(const TipState& tip) const = 0;  ///< m/s
-  virtual bool needs_K() const = 0;
+  virtual bool needs_intensities() const = 0;
   virtual bool looks_ahead() const = 0;
 };
 
@@ -35,7 +35,7 @@ class GrowthCriterionOf final : public GrowthCriterion {
   double drive(const TipState& tip) const override { return is_.drive(tip); }
   double angle(const TipState& tip) const override { return is_.angle(tip); }
   double speed(const TipState& tip) const override { return is_.speed(tip); }
-  bool needs_K() const override { return Criterion::needs_K; }
+  bool needs_intensities() const override { return Criterion::needs_intensities; }
   bool looks_ahead() const override { return Criterion::looks_ahead; }
   const Criterion& parameters() const { return is_; }
 

@@ -11,7 +11,7 @@ struct CriticalJ {
   double toughness = 0;  ///< J/m2
 
   static constexpr const char* name = "critical_j";
-  static constexpr bool needs_K = false;
+  static constexpr bool needs_intensities = false;
   static constexpr bool looks_ahead = false;
   static std::vector<CriticalJ> examples() { return {{100.}, {2.2e4}}; }
   double drive(const TipState& tip) const { return tip.J / toughness; }

@@ -12,7 +12,7 @@ struct CriticalOpening {
   std::optional<double> sliding;  ///< m; none: sliding does not count
 
   static constexpr const char* name = "critical_opening";
-  static constexpr bool needs_K = false;
+  static constexpr bool needs_intensities = false;
   static constexpr bool looks_ahead = false;
   static std::vector<CriticalOpening> examples() { return {{1e-5, {}}, {1e-5, 2e-5}}; }
   double drive(const TipState& tip) const {

@@ -12,7 +12,7 @@ struct EnergyDrivenGrowth {
   double largest_speed = 0;  ///< m/s
 
   static constexpr const char* name = "energy_balance";
-  static constexpr bool needs_K = false;
+  static constexpr bool needs_intensities = false;
   static constexpr bool looks_ahead = false;
   static std::vector<EnergyDrivenGrowth> examples() { return {{100., 300.}, {2.2e4, 2800.}}; }
   double drive(const TipState& tip) const { return tip.J / toughness; }

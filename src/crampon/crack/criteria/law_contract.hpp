@@ -23,8 +23,8 @@ concept has_speed = requires(const Criterion criterion, const TipState tip) {
   { criterion.speed(tip) } -> std::same_as<double>;
 };
 template <class Criterion>
-concept says_whether_it_needs_K = requires {
-  requires std::same_as<decltype(Criterion::needs_K), const bool>;
+concept says_whether_it_needs_intensities = requires {
+  requires std::same_as<decltype(Criterion::needs_intensities), const bool>;
 };
 template <class Criterion>
 concept says_whether_it_looks_ahead = requires {
@@ -48,8 +48,8 @@ struct GrowthCriterionContract {
                 "a criterion needs: double angle(const TipState&) const; where it grows, rad, from the direction of the crack to the left");
   static_assert(criterion_contract::has_speed<Criterion>,
                 "a criterion needs: double speed(const TipState&) const; m/s, no_limit_of_speed for one that does not say");
-  static_assert(criterion_contract::says_whether_it_needs_K<Criterion>,
-                "a criterion needs: static constexpr bool needs_K; true if it cannot do with J alone");
+  static_assert(criterion_contract::says_whether_it_needs_intensities<Criterion>,
+                "a criterion needs: static constexpr bool needs_intensities; true if it cannot do with J alone");
   static_assert(criterion_contract::says_whether_it_looks_ahead<Criterion>,
                 "a criterion needs: static constexpr bool looks_ahead; true if it asks for the stress ahead of the tip");
   static constexpr bool complete = true;

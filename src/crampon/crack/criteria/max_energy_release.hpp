@@ -12,7 +12,7 @@ struct MaxEnergyRelease {
   double toughness = 0;  ///< J/m2
 
   static constexpr const char* name = "max_energy_release";
-  static constexpr bool needs_K = true;
+  static constexpr bool needs_intensities = true;
   static constexpr bool looks_ahead = false;
   static std::vector<MaxEnergyRelease> examples() { return {{100.}, {2.2e4}}; }
   /// Of a kink at an angle, J/m2.

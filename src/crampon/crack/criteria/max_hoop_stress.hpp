@@ -11,7 +11,7 @@ struct MaxHoopStress {
   double K_Ic = 0;  ///< Pa sqrt(m)
 
   static constexpr const char* name = "max_hoop_stress";
-  static constexpr bool needs_K = true;
+  static constexpr bool needs_intensities = true;
   static constexpr bool looks_ahead = false;
   static std::vector<MaxHoopStress> examples() { return {{1e6}, {68e6}}; }
   double drive(const TipState& tip) const {

@@ -11,7 +11,7 @@ struct MaxPrincipalStress {
   double strength = 0;  ///< Pa
 
   static constexpr const char* name = "max_principal_stress";
-  static constexpr bool needs_K = false;
+  static constexpr bool needs_intensities = false;
   static constexpr bool looks_ahead = true;
   static std::vector<MaxPrincipalStress> examples() { return {{1e7}, {5e8}}; }
   static double largest(const Tensor2& s) {

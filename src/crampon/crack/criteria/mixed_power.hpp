@@ -12,7 +12,7 @@ struct MixedPower {
   double p = 2, q = 2;
 
   static constexpr const char* name = "mixed_power";
-  static constexpr bool needs_K = true;
+  static constexpr bool needs_intensities = true;
   static constexpr bool looks_ahead = false;
   static std::vector<MixedPower> examples() { return {{1e6, 0.8e6, 2, 2}, {68e6, 100e6, 1, 1.5}}; }
   /// The square of the factor by which K may grow for each that it takes to the curve.

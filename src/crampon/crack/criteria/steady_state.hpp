@@ -13,7 +13,7 @@ struct SteadyState {
   std::optional<double> start;  ///< s; begins then at the latest
 
   static constexpr const char* name = "steady_state";
-  static constexpr bool needs_K = false;
+  static constexpr bool needs_intensities = false;
   static constexpr bool looks_ahead = false;
   static std::vector<SteadyState> examples() { return {{100., 300., {}}, {2.2e4, 1000., 1e-5}}; }
   double drive(const TipState& tip) const {

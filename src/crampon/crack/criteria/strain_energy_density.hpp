@@ -11,7 +11,7 @@ struct StrainEnergyDensity {
   double K_Ic = 0;  ///< Pa sqrt(m)
 
   static constexpr const char* name = "strain_energy_density";
-  static constexpr bool needs_K = true;
+  static constexpr bool needs_intensities = true;
   static constexpr bool looks_ahead = false;
   static std::vector<StrainEnergyDensity> examples() { return {{1e6}, {68e6}}; }
   /// 16 pi mu r times the strain energy density.

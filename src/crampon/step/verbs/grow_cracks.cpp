@@ -58,7 +58,7 @@ std::optional<Growth> decide(const State<2>& state, const Model<2>& model, const
   const double resistance = growth.resistance.at(tip.grown, tip.speed);
   const TipFrame frame = present_frame(model, state.cracks.list[tip.crack], tip);
   const auto asks = [&](const GrowthCriterion& criterion) -> std::optional<Growth> {
-    if (criterion.needs_K() && !(now.K.I == now.K.I)) return std::nullopt;
+    if (criterion.needs_intensities() && !(now.K.I == now.K.I)) return std::nullopt;
     const double drive = criterion.drive(now) / resistance;
     if (!(drive >= 1)) return std::nullopt;
     Growth g{angle_of(growth, criterion, now, tip, frame), std::fmin(growth.largest_speed, criterion.speed(now))};
