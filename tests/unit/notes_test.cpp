@@ -187,6 +187,21 @@ TEST(Notes, CracksThatCutNothing) {
   EXPECT_NE(note(whole).find("no body is parted by cracks"), std::string::npos);
 }
 
+TEST(Notes, FractureWithoutTips) {
+  const std::string through = "[[crack]]\nname = \"c\"\npoints = [[0.2, 0.5], [0.8, 0.5]]\n",
+                    edge = "[[crack]]\nname = \"c\"\npoints = [[0.2, 0.5], [0.5, 0.5]]\n";
+  const std::string growth = "growth = { criterion = { law = \"critical_j\", toughness = 1 }", fracture = "[fracture]\n";
+  EXPECT_EQ(
+      note(block + through + fracture),
+      "in.toml:21:1: fracture: no crack has a tip in a body (there is no J to find); let a crack end inside a body, or remove [fracture]");
+  EXPECT_EQ(note(block + edge + growth + ", ends = \"start\" }\n" + fracture),
+            "in.toml:21:1: crack[0].growth: the crack \"c\" has no tip that may grow (growth.ends leaves out the end that lies in a "
+            "body); let it end "
+            "inside a body, or remove growth");
+  EXPECT_EQ(notes(block + through + growth + " }\n" + fracture).size(), 2U);
+  EXPECT_TRUE(notes(block + edge + growth + " }\n" + fracture).empty());
+}
+
 TEST(Notes, CracksThatCoincideOrMeetThemselves) {
   const auto cracks = [&](const std::string& a, const std::string& b) {
     return block + "[[crack]]\nname = \"a\"\npoints = " + a + "\n[[crack]]\nname = \"b\"\npoints = " + b + "\n";

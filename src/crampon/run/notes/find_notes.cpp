@@ -16,6 +16,7 @@ Notes find_notes(Start<Dim> start) {
            note_stairs_of_particles<Dim>,
            note_thin_rigid_bodies<Dim>,
            note_idle_cracks<Dim>,
+           note_idle_growth<Dim>,
            note_tangled_cracks<Dim>,
            note_idle_conditions<Dim>,
            note_far_probes<Dim>,

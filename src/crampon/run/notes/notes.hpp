@@ -47,6 +47,9 @@ void note_thin_rigid_bodies(const Start<Dim>& start, Notes& notes);
 /// Cracks that have no material on both sides, or pass between particles and nodes.
 template <int Dim>
 void note_idle_cracks(const Start<Dim>& start, Notes& notes);
+/// Fracture parameters or growth asked for where there is no tip.
+template <int Dim>
+void note_idle_growth(const Start<Dim>& start, Notes& notes);
 /// Cracks that lie on each other, or meet themselves.
 template <int Dim>
 void note_tangled_cracks(const Start<Dim>& start, Notes& notes);
