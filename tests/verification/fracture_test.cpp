@@ -203,7 +203,9 @@ value = [0, -0.4e9]
 }
 TEST_P(Chen, FollowsTheWaves) {
   const auto [shape, cell] = GetParam();
-  EXPECT_LT(rms_of_chen(shape, cell), cell > 3e-4 ? 0.13 : 0.08);
+  // With linear functions particles cross cells from 7 us on, which their stress feels.
+  const bool smooth = boxes_of(kind_of_word(shape)).smoothness() > 0;
+  EXPECT_LT(rms_of_chen(shape, cell), !smooth ? 0.2 : cell > 3e-4 ? 0.13 : 0.08);
 }
 using OfChen = std::pair<const char*, double>;
 INSTANTIATE_TEST_SUITE_P(Coarse, Chen, ::testing::Values(OfChen{"gimp", 4e-4}));

@@ -24,11 +24,15 @@ struct StrainEnergyDensity {
     if (!(tip.K.I > 0) && tip.K.II == 0) return 0;
     return density(tip, angle(tip)) / (2 * (tip.elastic.kappa - 1) * K_Ic * K_Ic);
   }
-  /// The least density that is not all but closed again: away from the faces, against the sense of K_II.
+  /// Where the density is least, against the sense of K_II. It falls off again towards the faces, behind a largest value: that is not meant.
   double angle(const TipState& tip) const {
     if (tip.K.II == 0) return 0;
-    const double away = 0.75 * std::numbers::pi, low = tip.K.II > 0 ? -away : 0, high = tip.K.II > 0 ? 0 : away;
-    return best_angle(low, high, [&](double theta) { return -density(tip, theta); });
+    const double sense = tip.K.II > 0 ? -1 : 1;
+    const auto along = [&](double way) { return density(tip, sense * way); };
+    constexpr double step = std::numbers::pi / 360;
+    double way = 0;
+    while (way < 0.75 * std::numbers::pi && along(way + step) < along(way)) way += step;
+    return sense * best_angle(std::fmax(way - step, 0), way + step, [&](double theta) { return -along(theta); });
   }
   double speed(const TipState&) const { return no_limit_of_speed; }
   static const Declaration<StrainEnergyDensity>& declaration() {
