@@ -41,6 +41,13 @@ inline void add_turn<3>(const Pack* L, double dt, Pack* turn) {
   turn[2] = fused(splat(0.5 * dt), L[3] - L[1], turn[2]);
 }
 
+/// Of a few packs. Not inlined: few problems need it, and all would pay for the registers.
+template <int Dim>
+[[gnu::noinline]] void add_turns(const Pack* L, double dt, std::uint32_t first, std::uint32_t end, Particles<Dim>& particles) {
+  for (std::uint32_t k = first; k < end; ++k)
+    add_turn<Dim>(L + (k - first) * Dim * Dim, dt, &particles.turn[std::size_t{k} * turn_size<Dim>]);
+}
+
 /// Calls the material law on batches of a few packs of one run: gradients are found while walking, the law sees a batch at once,
 /// and `then(pack, stencil, targets, run)` follows for every pack of it with the new stress. offsets: of folded pairs, for the time of the velocities.
 template <int Dim, class Shape, class Then>
@@ -61,10 +68,7 @@ void update_stress(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mod
         if (ahead != 0 && law.follows_deformation()) {
           for (std::uint32_t k = first; k < end; ++k) take_to_middle<Dim>(L + (k - first) * Dim * Dim, ahead);
         }
-        if (particles.keeps_turn && !law.follows_deformation()) {
-          for (std::uint32_t k = first; k < end; ++k)
-            add_turn<Dim>(L + (k - first) * Dim * Dim, dt, &particles.turn[std::size_t{k} * turn_size<Dim>]);
-        }
+        if (particles.keeps_turn && !law.follows_deformation()) add_turns(L, dt, first, end, particles);
         const StressBatch<Dim> batch{static_cast<int>(end - first),
                                      dt,
                                      L,
