@@ -172,7 +172,10 @@ class Engine final : public Simulation {
       const std::string where =
           fmt::format("at the {} of the crack \"{}\"", tip.end == 0 ? "start" : "end", state_.cracks.list[tip.crack].name);
       if (tip.missed > 0) {
-        const std::string why = tip.now.no_J == NoParameter::none ? "the last look found one" : reason(tip.now.no_J);
+        const bool ended = tip.status == TipStatus::joined || tip.status == TipStatus::left;
+        const std::string why = ended                               ? "it came near to where it ended"
+                                : tip.now.no_J == NoParameter::none ? "the last look found one"
+                                                                    : reason(tip.now.no_J);
         out.push_back(fmt::format("{} of {} looks found no J {}: {}; a disk of {:g} cells about the tip must be free", tip.missed,
                                   tip.missed + tip.found, where, why, std::fmin(FractureModel::least_outer, model_.fracture.outer)));
       } else if (tip.now.no_K != NoParameter::none) {
