@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Does the compiler name what a law lacks, in its first error? For material, contact and traction laws.
+"""Does the compiler name what a law lacks, in its first error? For material, contact and traction laws, and for criteria of growth.
 
 law_contract_test.py COMPILER
 Compiles a law that is complete, and the same law without each of its members.
@@ -78,11 +78,26 @@ TRACTION = {
 TRACTION_WRONG = {
     "a toughness for both modes": ("toughness", "double toughness() const { return 0; }", "PerMode toughness() const"),
 }
+CRITERION = {
+    "name": ('static constexpr const char* name = "broken";', "static constexpr const char* name"),
+    "declaration": ("static const Declaration<Law>& declaration();", "static const Declaration<Criterion>& declaration()"),
+    "examples": ("static std::vector<Law> examples() { return {}; }", "a criterion needs"),
+    "drive": ("double drive(const TipState&) const { return 0; }", "double drive(const TipState&) const"),
+    "angle": ("double angle(const TipState&) const { return 0; }", "double angle(const TipState&) const"),
+    "speed": ("double speed(const TipState&) const { return 1; }", "double speed(const TipState&) const"),
+    "needs_intensities": ("static constexpr bool needs_intensities = false;", "static constexpr bool needs_intensities"),
+    "looks_ahead": ("static constexpr bool looks_ahead = false;", "static constexpr bool looks_ahead"),
+}
+CRITERION_WRONG = {
+    "a direction in place of an angle": ("angle", "Vec<2> angle(const TipState&) const { return {}; }", "double angle(const TipState&) const"),
+}
 # (family, header, how a law joins, members, what is wrong)
 FAMILIES = (
     ("material", "material/material.hpp", "void join(Family<MaterialSpec>& family) { add_material<Law>(family); }", MATERIAL, MATERIAL_WRONG),
     ("contact", "contact/law.hpp", "void join(Family<ContactLawSpec>& family) { add_contact_law<Law>(family); }", CONTACT, CONTACT_WRONG),
     ("traction", "crack/traction/law.hpp", "void join(Family<TractionLawSpec>& family) { add_traction_law<Law>(family); }", TRACTION, TRACTION_WRONG),
+    ("criterion", "crack/criteria/criterion.hpp", "void join(Family<GrowthCriterionSpec>& family) { add_growth_criterion<Law>(family); }",
+     CRITERION, CRITERION_WRONG),
 )
 
 

@@ -135,7 +135,11 @@ TEST_P(EveryCriterion, TurnsAwayFromTheSenseOfSliding) {
     EXPECT_LT(std::fabs(angle), 0.75 * pi + 1e-9);
   }
 }
-TEST_P(EveryCriterion, HasASpeedThatIsNone) { EXPECT_GE(criterion.speed(tip_with(1e6, 0)), 0); }
+TEST_P(EveryCriterion, HasASpeedWhereItGrows) {
+  const TipState tip = tip_with(1e9, 0);
+  ASSERT_GE(criterion.drive(tip), 1);
+  EXPECT_GT(criterion.speed(tip), 0);
+}
 TEST_P(EveryCriterion, StandsInTheSchemaAndOnTheReferencePage) {
   const Alternative* of = growth_criteria().find(criterion.name());
   ASSERT_NE(of, nullptr);

@@ -305,7 +305,7 @@ TEST(TipFrame, TurnsVectorsAndTensors) {
   for (int i = 0; i < 20; ++i) {
     const Tensor2 a = {Vec<2>{{number(random), number(random)}}, Vec<2>{{number(random), number(random)}}};
     const Vec<2> x{{number(random), number(random)}}, product{{dot(a[0], x), dot(a[1], x)}};
-    const Tensor2 b = frame.turned(a);
+    const Tensor2 b = turned(a, frame, frame);
     const Vec<2> y = frame.turned(x);
     EXPECT_LT(norm(Vec<2>{{dot(b[0], y), dot(b[1], y)}} - frame.turned(product)), 1e-14) << "(R a R^T) R x = R (a x)";
   }

@@ -302,6 +302,21 @@ TEST(Tips, WithoutRoomHaveNoJAndSayWhy) {
   }
 }
 
+// What loads and prescribed velocities do to the material is not in its stress: with them in the domain there is no J.
+TEST(Tips, WhereALoadActsHaveNoJ) {
+  for (const auto& [x, has_J] :
+       std::vector<std::pair<double, bool>>{{12, false}, {14.5, true}, {17, true}}) {  // .5 m in from there is a particle
+    const std::string at = fmt::format("region = {{ kind = \"rectangle\", low = [{}, 9], high = [{}, 11] }}\n", x, x + 1);
+    for (const std::string& what :
+         {"[[load]]\nname = \"l\"\nkind = \"total_force\"\nvalue = [0, 1]\n" + at, "[[boundary]]\nname = \"b\"\nvy = 0\n" + at}) {
+      const auto s = make(small_plate(crack("a", -1, 10, 10, 10)) + what);
+      run(*s);
+      EXPECT_EQ(std::isfinite(value(*s, "J.a.end")), has_J) << x << what;
+      EXPECT_EQ(notes_of(*s).find("a load or a prescribed velocity acts too near") == std::string::npos, has_J) << notes_of(*s);
+    }
+  }
+}
+
 TEST(Tips, BetweenMaterialsHaveJButNoK) {
   const std::string text = R"in(
 [[material]]
@@ -491,6 +506,32 @@ TEST(Growth, EndsAtAnotherCrack) {
       }
     }
   }
+  // A hook whose end looks at its own shank.
+  Plate p;
+  p.wide = p.high = 2;
+  std::string text = growing(p, "criterion = { law = \"steady_state\", toughness = 1, speed = 0.2, start = 0 }, ends = \"end\"", 1.5);
+  const std::size_t points = text.find("points = "), line = text.find('\n', points);
+  text.replace(points, line - points, "points = [[-0.4, -0.6], [-0.4, 0.4], [0.6, 0.4], [0.6, -0.1], [0.3, -0.1]]");
+  const auto s = make(text);
+  run(*s);
+  ASSERT_EQ(ends_of(*s), std::vector<int>{joined});
+  EXPECT_NEAR(said(*s, s->event_count() - 1, "x"), -0.4, 0.01);
+}
+
+// The edge of a body ends a crack though another body lies against it.
+TEST(Growth, StaysInItsBody) {
+  std::string text = small_plate(
+      "[[crack]]\nname = \"a\"\npoints = [[5, 10], [12, 10]]\ngrowth = { criterion = { law = \"steady_state\", toughness = 1, "
+      "speed = 40, start = 0 }, ends = \"end\" }\n");
+  text.replace(text.find("steps = 40"), 10, "steps = 60");
+  text.replace(text.find("high = [20, 20]"), 15, "high = [16, 20]");
+  text +=
+      "[[body]]\nname = \"beside\"\nmaterial = \"m\"\nshape = { kind = \"rectangle\", low = [16, 0], high = [20, 20] }\n"
+      "velocity = [0, { expression = \"0.2*(y - 10)\", unit = \"m/s\" }]\n[contact]\nfields = \"bodies\"\ndefault = \"frictionless\"\n";
+  const auto s = make(text);
+  run(*s);
+  ASSERT_EQ(ends_of(*s), std::vector<int>{left});
+  EXPECT_NEAR(said(*s, s->event_count() - 1, "x"), 16, 0.6) << "half a cell";
 }
 
 // Any number of threads, and saved and loaded between two growths: the same bits.

@@ -107,15 +107,11 @@ Family<ContactLawSpec>& contact_laws();
 /// Every law of the family with the parameters of each of its examples: for what goes through all laws.
 std::vector<ContactLawSpec> contact_law_examples();
 
-namespace detail {
-std::vector<ContactLawSpec>& examples_of_contact_laws();
-}
-
 /// The one line by which a law joins the family.
 template <class Law>
 void add_contact_law(Family<ContactLawSpec>& family) {
   static_assert(ContactLawContract<Law>::complete);
-  for (const Law& example : Law::examples()) detail::examples_of_contact_laws().push_back(example);
+  for (const Law& example : Law::examples()) examples_of_family<ContactLawSpec>().push_back(example);
   family.add<Law>(Law::declaration());
 }
 

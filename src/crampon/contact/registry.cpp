@@ -13,16 +13,9 @@
 
 namespace crampon {
 
-namespace detail {
-std::vector<ContactLawSpec>& examples_of_contact_laws() {
-  static std::vector<ContactLawSpec> all;
-  return all;
-}
-}  // namespace detail
-
 std::vector<ContactLawSpec> contact_law_examples() {
   contact_laws();  // laws join as the family is made
-  return detail::examples_of_contact_laws();
+  return examples_of_family<ContactLawSpec>();
 }
 
 ContactLawSpec::ContactLawSpec() {

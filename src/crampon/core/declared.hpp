@@ -24,3 +24,14 @@ concept has_examples = requires {
 };
 
 }  // namespace crampon::declared
+
+namespace crampon {
+
+/// The examples of all members of the family whose values are Spec: members put theirs here as they join.
+template <class Spec>
+std::vector<Spec>& examples_of_family() {
+  static std::vector<Spec> all;
+  return all;
+}
+
+}  // namespace crampon

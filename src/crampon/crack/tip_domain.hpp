@@ -23,11 +23,19 @@ struct TipFrame {
 
   TipFrame(const Vec<2>& at, const Vec<2>& behind) : tip(at), ahead(normalized(at - behind)), left{{-ahead[1], ahead[0]}} {}
   Vec<2> turned(const Vec<2>& a) const { return {{dot(a, ahead), dot(a, left)}}; }
-  Tensor2 turned(const Tensor2& a) const {
-    const Vec<2> rows[2] = {turned(a[0]), turned(a[1])};  // second index; then the first
-    return {rows[0] * ahead[0] + rows[1] * ahead[1], rows[0] * left[0] + rows[1] * left[1]};
+  /// Turned to the left by the angle of a direction {cos, sin}.
+  TipFrame turned_by(const Vec<2>& direction) const {
+    TipFrame out = *this;
+    out.ahead = ahead * direction[0] + left * direction[1];
+    out.left = left * direction[0] - ahead * direction[1];
+    return out;
   }
 };
+/// Components of a tensor whose indices belong to two frames.
+inline Tensor2 turned(const Tensor2& a, const TipFrame& first, const TipFrame& second) {
+  const Vec<2> rows[2] = {second.turned(a[0]), second.turned(a[1])};
+  return {rows[0] * first.ahead[0] + rows[1] * first.ahead[1], rows[0] * first.left[0] + rows[1] * first.left[1]};
+}
 
 /// What the integrals take of a particle.
 struct TipSample {

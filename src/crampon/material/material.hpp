@@ -19,15 +19,11 @@ Family<MaterialSpec>& materials();
 /// Every law of the family once, with the parameters of its example: for what goes through all laws.
 std::vector<MaterialSpec> material_examples();
 
-namespace detail {
-std::vector<MaterialSpec>& examples_of_materials();
-}
-
 /// The one line by which a law joins the family.
 template <class Law>
 void add_material(Family<MaterialSpec>& family) {
   static_assert(MaterialLawContract<Law>::complete);
-  detail::examples_of_materials().push_back(std::make_shared<LawKernel<Law>>(Law::example()));
+  examples_of_family<MaterialSpec>().push_back(std::make_shared<LawKernel<Law>>(Law::example()));
   family.add<Law>(Law::declaration(), [](Law law) -> MaterialSpec { return std::make_shared<LawKernel<Law>>(law); });
 }
 

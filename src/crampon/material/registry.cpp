@@ -51,16 +51,9 @@ const Declaration<J2Plasticity>& J2Plasticity::declaration() {
   return d;
 }
 
-namespace detail {
-std::vector<MaterialSpec>& examples_of_materials() {
-  static std::vector<MaterialSpec> all;
-  return all;
-}
-}  // namespace detail
-
 std::vector<MaterialSpec> material_examples() {
   materials();  // laws join as the family is made
-  return detail::examples_of_materials();
+  return examples_of_family<MaterialSpec>();
 }
 
 // A further law is one file like neo_hookean.hpp and one line here.

@@ -10,13 +10,13 @@
 #include "crampon/geometry/arc.hpp"
 #include "crampon/run/build_bodies.hpp"
 #include "crampon/run/build_contact.hpp"
+#include "crampon/run/build_fracture.hpp"
 #include "crampon/run/build_loads.hpp"
 #include "crampon/run/crack_ends.hpp"
 #include "crampon/run/initial_stress.hpp"
 #include "crampon/run/surfaces_at_start.hpp"
 #include "crampon/step/crack_tractions.hpp"
 #include "crampon/step/face_loads.hpp"
-#include "crampon/step/tip_samples.hpp"
 
 namespace crampon {
 
@@ -207,65 +207,6 @@ void build_cracks(const Problem& problem, const BuiltBodies<2>& bodies, BuiltMod
   }
 }
 
-/// Of the fastest material, m/s: c_s (.862 + 1.14 nu)/(1 + nu) (Viktorov, Rayleigh and Lamb Waves).
-double rayleigh_speed(const Model<2>& model) {
-  double fastest = 0;
-  for (const Material<2>& m : model.materials) {
-    const auto elastic = m.law->elasticity();
-    const double nu = elastic ? elastic->lambda / (2 * (elastic->lambda + elastic->mu)) : 0.3;
-    const double shear = elastic ? std::sqrt(elastic->mu / m.law->density()) : 0.5 * m.law->wave_speed(model.stress_state);
-    fastest = std::fmax(fastest, shear * (0.862 + 1.14 * nu) / (1 + nu));
-  }
-  return fastest;
-}
-
-/// h: cell, m; rayleigh: m/s.
-GrowthModel build_growth(const GrowthInput& in, double h, double rayleigh) {
-  GrowthModel out;
-  out.criterion = in.criterion, out.alternate = in.alternate;
-  out.end = {in.ends != GrowthInput::Ends::end, in.ends != GrowthInput::Ends::start};
-  out.direction = in.direction;
-  if (!in.along.empty()) out.along = {{in.along[0], in.along[1]}};
-  out.increment = in.increment * h;
-  out.largest_speed = in.largest_speed.value_or(rayleigh);
-  out.by_rate = in.speed_by_drive;
-  if (in.largest_growth) out.largest_growth = *in.largest_growth;
-  out.start = in.start;
-  out.interval = 0.5 * h / rayleigh;
-  out.bridged = in.bridged;
-  out.resistance.grown = in.r_curve_growth, out.resistance.factor = in.r_curve_factor;
-  out.resistance.speed = in.rate_speed.value_or(0), out.resistance.exponent = in.rate_exponent;
-  return out;
-}
-
-void build_fracture(const Problem& problem, Model<2>& model, State<2>& state) {
-  if (!problem.fracture) return;
-  const FractureInput& in = *problem.fracture;
-  FractureModel& fracture = model.fracture;
-  fracture.on = true;
-  fracture.inner = in.inner_radius, fracture.outer = in.outer_radius;
-  fracture.mixity = in.mixity;
-  double fastest = 0;
-  for (const Material<2>& m : model.materials) fastest = std::fmax(fastest, m.law->wave_speed(model.stress_state));
-  fracture.interval = in.interval.value_or(fracture.outer * model.grid.smallest_cell() / fastest);
-  const double h = std::fmax(model.grid.cell[0], model.grid.cell[1]);
-  for (const CrackInput& crack : problem.cracks)
-    model.growth.push_back(crack.growth ? build_growth(*crack.growth, h, rayleigh_speed(model)) : GrowthModel{});
-  for (std::size_t c = 0; c < state.cracks.size(); ++c) {
-    const Crack<2>& crack = state.cracks.list[c];
-    if (crack.closed) continue;
-    for (const std::size_t end : {0, 1}) {
-      const std::size_t v = end == 0 ? 0 : crack.plane.size() - 1;
-      if (crack.extension[end] > 0 || crack.mirrored[end] != 0 || !state.observed.cracked[c][v]) continue;
-      CrackTip tip;
-      tip.crack = static_cast<std::uint32_t>(c);
-      tip.end = static_cast<std::uint8_t>(end);
-      tip.initial = original_frame(model, crack, tip).ahead;
-      state.fracture.tips.push_back(tip);
-    }
-  }
-}
-
 template <int Dim>
 void place_particles(const BuiltBodies<Dim>& bodies, const Model<Dim>& model, State<Dim>& state) {
   int history = 0;
@@ -360,8 +301,8 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   build_conditions(problem, model, errors);
   build_contact(problem, model, out.state, errors);
   if constexpr (Dim == 2) build_cracks(problem, bodies, out, errors);
-  if constexpr (Dim == 2) build_fracture(problem, model, out.state);
   if (errors.empty()) build_loads(problem, bodies, out.state.cracks, model, errors);
+  if constexpr (Dim == 2) build_fracture(problem, bodies.particles.size(), model, out.state);
   if (!errors.empty()) throw InputError(std::move(errors));
   place_particles(bodies, model, out.state);
   start_face_loads(out.state, out.work, model);

@@ -5,14 +5,11 @@
 #include <limits>
 
 #include "crampon/crack/symmetry_fold.hpp"
+#include "crampon/step/crack_images.hpp"
 
 namespace crampon {
 
 namespace {
-
-/// Lines from particles to nodes reach this far beyond an edge, in cells: from a particle on it over the stencil in both directions, to a crack
-/// that leaves the body at a slant. stencil: cells from a particle to its furthest node.
-double reach_beyond_edges(double stencil) { return 4 * std::fmax(1, stencil / 1.5); }
 
 /// Where on [0, 1] something that holds at `a` and not at `b` ceases to hold.
 template <class Holds>
@@ -27,7 +24,7 @@ double border(double a, double b, Holds holds) {
 }  // namespace
 
 Material2D::Material2D(const Problem& problem, const BuiltBodies<2>& bodies, const Grid<2>& grid)
-    : cell_(std::fmax(grid.cell[0], grid.cell[1])),
+    : cell_(grid.largest_cell()),
       reach_(reach_beyond_edges(with_shape(problem.method.shape_functions, []<class Shape>(std::type_identity<Shape>) {
         return double{Shape::reach(largest_half_extent)};
       }))) {

@@ -17,6 +17,7 @@ enum class NoParameter : std::uint8_t {
   edge,         ///< nearer than the smallest domain to the edge of the body
   tip,          ///< ... to another tip
   crack,        ///< ... to another crack, or to another part of its own
+  load,         ///< ... to where a load or a prescribed velocity acts
   materials,    ///< several materials about the tip: J, but no K
   anisotropic,  ///< the law has no isotropic elasticity at small strain: J, but no K
 };
@@ -34,6 +35,8 @@ constexpr const char* reason(NoParameter why) {
       return "another tip is too near";
     case NoParameter::crack:
       return "another crack, or another part of its own, is too near";
+    case NoParameter::load:
+      return "a load or a prescribed velocity acts too near";
     case NoParameter::materials:
       return "several materials meet there";
     case NoParameter::anisotropic:

@@ -93,6 +93,11 @@ struct Grid {
     for (int k = 1; k < Dim; ++k) h = std::fmin(h, cell[k]);
     return h;
   }
+  double largest_cell() const {
+    double h = cell[0];
+    for (int k = 1; k < Dim; ++k) h = std::fmax(h, cell[k]);
+    return h;
+  }
   /// Are the sides of cells equal, but for a tenth?
   bool has_even_cells() const {
     const double shortest = smallest_cell();

@@ -2,6 +2,7 @@
 /// Cracks at symmetry planes and at their ends, as the whole body has them (docs/theory/crossing.md; conventions 29).
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -43,6 +44,10 @@ bool comes_near(const SeenCrack<Dim>& crack, const Mirror<Dim>& mirror, double r
 /// joined to it, all but SeenCrack::neighbours, and the answer is true. In space edges may end on a mirror; none is joined yet.
 template <int Dim>
 bool join_image(SeenCrack<Dim>& crack, const Mirror<Dim>& mirror);
+
+/// Lines from particles to nodes reach this far beyond an edge, in cells: from a particle on it over the stencil in both directions, to a crack
+/// that leaves the body at a slant. stencil: cells from a particle to its furthest node.
+inline double reach_beyond_edges(double stencil) { return 4 * std::fmax(1, stencil / 1.5); }
 
 /// The vertices of a path in the plane, with what lies beyond them at ends that are no tips, straight on.
 /// \param extension  how far beyond the start and the end, m; 0: a tip

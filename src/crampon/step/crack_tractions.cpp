@@ -33,7 +33,7 @@ void share_force(StepWork<Dim>& work, const std::vector<NodeOfPoint>& nodes, con
 template <int Dim>
 double area_through_cell(const Grid<Dim>& grid, double thickness) {
   if constexpr (Dim == 2) {
-    return std::fmax(grid.cell[0], grid.cell[1]) * thickness;
+    return grid.largest_cell() * thickness;
   } else {
     return grid.cell[0] * grid.cell[1] * grid.cell[2] / grid.smallest_cell();
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 namespace crampon {
 
 /// How fracture parameters are found (docs/theory/fracture.md).
@@ -10,6 +12,7 @@ struct FractureModel {
   double inner = 3, outer = 6;  ///< radii of the domain, cells
   double interval = 0;          ///< between two looks, s
   Mixity mixity = Mixity::interaction;
+  std::vector<bool> loaded;  ///< by number of a particle: a load acts on it; empty: none does
 };
 
 }  // namespace crampon

@@ -1,52 +1,32 @@
 #pragma once
-/// From state to the integrals about a tip: where tips lie, what particles about them hold, how large a domain there is room for.
+/// What the integrals about a tip take of particles and cracks, in the frame of the tip (crack/tip_domain.hpp).
 
+#include <cstdint>
 #include <vector>
 
-#include "crampon/crack/criteria/tip_state.hpp"
 #include "crampon/crack/j_integral.hpp"
-#include "crampon/crack/stress_intensity.hpp"
 #include "crampon/step/model.hpp"
 #include "crampon/step/step_work.hpp"
+#include "crampon/step/tip_frame.hpp"
 
 namespace crampon {
-
-/// The vertices of a crack from a tip backwards.
-class TipVertices {
- public:
-  TipVertices(const Crack<2>& crack, const CrackTip& tip) : count_(crack.plane.size()), from_start_(tip.end == 0) {}
-  std::size_t size() const { return count_; }
-  std::size_t operator[](std::size_t k) const { return from_start_ ? k : count_ - 1 - k; }
-  /// Of the opening, upper less lower, that of the side to the left of a tip less that to the right.
-  double sign() const { return from_start_ ? -1 : 1; }
-
- private:
-  std::size_t count_;
-  bool from_start_;
-};
-
-/// Cells between the ends of the chord that gives a tip its direction.
-inline constexpr double chord_in_cells = 2;
-
-/// In the undeformed body, and at present.
-TipFrame original_frame(const Model<2>& model, const Crack<2>& crack, const CrackTip& tip);
-TipFrame present_frame(const Model<2>& model, const Crack<2>& crack, const CrackTip& tip);
 
 /// Particles about each tip of the state, with their velocities and displacement gradients.
 std::vector<TipWatch> watch_particles(const State<2>& state, const Model<2>& model);
 
-/// Radius of the domain about a tip, m, and what keeps it from the radius that the model asks for.
-struct TipRoom {
-  double radius = 0;
-  NoParameter bound = NoParameter::none;
-};
-TipRoom find_room(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWatch& watch);
+/// Particles within a radius (m) that belong to the material of the tip, after a step of dt (s); 0: as if all were at rest. Bodies that follow their deformation are
+/// turned back by the mean turn about the tip, so that what is added up is small where strains are.
+std::vector<TipSample> take_samples(const State<2>& state, const StepWork<2>& work, const Model<2>& model, const TipFrame& frame,
+                                    const TipWatch& watch, std::uint32_t material, double radius, double dt);
 
-/// What criteria of growth may ask of a tip whose parameters have just been found.
-TipState state_of_tip(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWatch& watch);
+/// Pieces of the crack with a middle within the radius (m; infinite: all of it) that bear tractions. weight: none counts 1.
+std::vector<FaceTraction> take_tractions(const State<2>& state, const Model<2>& model, const CrackTip& tip, double radius,
+                                         const TipWeight* weight);
 
-/// Parameters of a tip after a step of dt. dt = 0: as if all were at rest.
-void find_parameters(const State<2>& state, const StepWork<2>& work, const Model<2>& model, const TipWatch& watch, double dt,
-                     CrackTip& tip);
+/// The path of the crack from the tip backwards, m.
+std::vector<Vec<2>> path_behind(const Crack<2>& crack, const CrackTip& tip, const TipFrame& frame);
+
+/// Both sides of the pieces of a path with a middle within the radius, m: means over the samples within a cell (m) beside them.
+std::vector<CrackSideSample> take_sides(const std::vector<Vec<2>>& path, const std::vector<TipSample>& samples, double radius, double cell);
 
 }  // namespace crampon

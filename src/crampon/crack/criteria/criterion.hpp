@@ -71,15 +71,11 @@ Family<GrowthCriterionSpec>& growth_criteria();
 /// Every criterion with the parameters of each of its examples: for what goes through all of them.
 std::vector<GrowthCriterionSpec> growth_criterion_examples();
 
-namespace detail {
-std::vector<GrowthCriterionSpec>& examples_of_growth_criteria();
-}
-
 /// The one line by which a criterion joins the family.
 template <class Criterion>
 void add_growth_criterion(Family<GrowthCriterionSpec>& family) {
   static_assert(GrowthCriterionContract<Criterion>::complete);
-  for (const Criterion& example : Criterion::examples()) detail::examples_of_growth_criteria().push_back(example);
+  for (const Criterion& example : Criterion::examples()) examples_of_family<GrowthCriterionSpec>().push_back(example);
   family.add<Criterion>(Criterion::declaration(), [](Criterion criterion) -> GrowthCriterionSpec { return criterion; });
 }
 

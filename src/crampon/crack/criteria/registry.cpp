@@ -11,16 +11,9 @@
 
 namespace crampon {
 
-namespace detail {
-std::vector<GrowthCriterionSpec>& examples_of_growth_criteria() {
-  static std::vector<GrowthCriterionSpec> all;
-  return all;
-}
-}  // namespace detail
-
 std::vector<GrowthCriterionSpec> growth_criterion_examples() {
   growth_criteria();  // criteria join as the family is made
-  return detail::examples_of_growth_criteria();
+  return examples_of_family<GrowthCriterionSpec>();
 }
 
 // A further criterion is one file like critical_j.hpp and one line here.

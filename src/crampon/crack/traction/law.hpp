@@ -83,15 +83,11 @@ Family<TractionLawSpec>& traction_laws();
 /// Every law of the family with the parameters of each of its examples: for what goes through all laws.
 std::vector<TractionLawSpec> traction_law_examples();
 
-namespace detail {
-std::vector<TractionLawSpec>& examples_of_traction_laws();
-}
-
 /// The one line by which a law joins the family.
 template <class Law>
 void add_traction_law(Family<TractionLawSpec>& family) {
   static_assert(TractionLawContract<Law>::complete);
-  for (const Law& example : Law::examples()) detail::examples_of_traction_laws().push_back(example);
+  for (const Law& example : Law::examples()) examples_of_family<TractionLawSpec>().push_back(example);
   family.add<typename Law::Input>(Law::declaration(), [](typename Law::Input input) -> TractionLawSpec { return Law::make(input); });
 }
 

@@ -14,16 +14,9 @@
 
 namespace crampon {
 
-namespace detail {
-std::vector<TractionLawSpec>& examples_of_traction_laws() {
-  static std::vector<TractionLawSpec> all;
-  return all;
-}
-}  // namespace detail
-
 std::vector<TractionLawSpec> traction_law_examples() {
   traction_laws();  // laws join as the family is made
-  return detail::examples_of_traction_laws();
+  return examples_of_family<TractionLawSpec>();
 }
 
 TractionLawSpec::TractionLawSpec() {

@@ -3,15 +3,17 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "crampon/crack/criteria/best_angle.hpp"
-#include "crampon/step/carrier_choice.hpp"
-#include "crampon/step/crack_carriers.hpp"
+#include "crampon/step/crack_images.hpp"
+#include "crampon/step/extend_crack.hpp"
 #include "crampon/step/instantiate.hpp"
+#include "crampon/step/particle_view.hpp"
 #include "crampon/step/point_fields.hpp"
-#include "crampon/step/tip_samples.hpp"
+#include "crampon/step/tip_frame.hpp"
+#include "crampon/step/tip_room.hpp"
 #include "crampon/step/verbs.hpp"
-#include "crampon/step/view_cracks.hpp"
 
 namespace crampon {
 
@@ -24,9 +26,51 @@ double angle_from(const Vec<2>& a, const Vec<2>& b) { return std::atan2(cross(a,
 
 /// What a tip is about to do.
 struct Growth {
-  double angle = 0;  ///< rad, to the left
-  double speed = 0;  ///< m/s
+  double angle = 0;    ///< rad, to the left
+  double speed = 0;    ///< m/s
+  bool first = false;  ///< the first criterion asks for it, not the alternate
 };
+
+/// Mean Cauchy stress of particles ahead of a tip, Pa, in its present frame; their weight falls with the distance in three cells. None where there are none.
+std::optional<Tensor2> stress_ahead(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWatch& watch) {
+  const Crack<2>& crack = state.cracks.list[tip.crack];
+  const double h = model.grid.largest_cell();
+  const TipFrame frame = original_frame(model, crack, tip), present = present_frame(model, crack, tip);
+  Tensor2 sum{};
+  double weights = 0;
+  for (const WatchedParticle& w : watch.particles) {
+    if (state.particles.is_padding(w.slot) || !belong_together(model, w.material, tip.material)) continue;
+    const Vec<2> place = frame.turned(state.particles.original[w.slot] - frame.tip);
+    const double r = norm(place) / (3 * h);
+    if (place[0] <= 0 || r > 2) continue;
+    const int l = static_cast<int>(w.slot % lanes);
+    const PackView<2> view(state, model, w.material, w.slot / lanes);
+    const Pack* tau = view.stress();
+    const double to_cauchy = view.report().to_cauchy[l], weight = state.particles.volume(w.slot) * std::exp(-0.5 * r * r);
+    sum[0] += Vec<2>{{tau[0][l], tau[2][l]}} * (to_cauchy * weight);
+    sum[1] += Vec<2>{{tau[2][l], tau[1][l]}} * (to_cauchy * weight);
+    weights += weight;
+  }
+  if (!(weights > 0)) return std::nullopt;
+  const Tensor2 mean = {sum[0] * (1 / weights), sum[1] * (1 / weights)};
+  return turned(mean, present, present);
+}
+
+/// What criteria of growth may ask of a tip whose parameters have just been found.
+TipState state_of_tip(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWatch& watch) {
+  const GrowthModel& growth = model.growth[tip.crack];
+  TipState out;
+  out.J = tip.now.J;
+  out.K = {tip.now.K_I, tip.now.K_II};
+  out.opening = opening_behind(model, state.cracks.list[tip.crack], tip);
+  if (const auto elastic = model.materials[tip.material].law->elasticity())
+    out.elastic = PlaneElasticity(elastic->plane_lambda(model.stress_state), elastic->mu);
+  out.time = state.clock.time;
+  out.grown = tip.grown;
+  if (growth.criterion->looks_ahead() || (growth.alternate && growth.alternate->looks_ahead()))
+    out.ahead = stress_ahead(state, model, tip, watch);
+  return out;
+}
 
 double angle_of(const GrowthModel& growth, const GrowthCriterion& criterion, const TipState& now, const CrackTip& tip,
                 const TipFrame& frame) {
@@ -53,15 +97,16 @@ std::optional<Growth> decide(const State<2>& state, const Model<2>& model, const
   if (state.clock.time < growth.start) return std::nullopt;
   if (tip.now.no_J != NoParameter::none) {
     if (tip.status != TipStatus::grows) return std::nullopt;
-    return Growth{0, tip.speed};
+    return Growth{0, tip.speed, false};
   }
   const double resistance = growth.resistance.at(tip.grown, tip.speed);
   const TipFrame frame = present_frame(model, state.cracks.list[tip.crack], tip);
   const auto asks = [&](const GrowthCriterion& criterion) -> std::optional<Growth> {
-    if (criterion.needs_intensities() && !(now.K.I == now.K.I)) return std::nullopt;
+    if (criterion.needs_intensities() && !std::isfinite(now.K.I)) return std::nullopt;
     const double drive = criterion.drive(now) / resistance;
     if (!(drive >= 1)) return std::nullopt;
-    Growth g{angle_of(growth, criterion, now, tip, frame), std::fmin(growth.largest_speed, criterion.speed(now))};
+    Growth g{angle_of(growth, criterion, now, tip, frame), std::fmin(growth.largest_speed, criterion.speed(now)),
+             &criterion == &*growth.criterion};
     if (growth.by_rate) g.speed = std::fmin(g.speed, growth.largest_speed * (1 - 1 / drive));
     if (!(g.speed > 1e-6 * growth.largest_speed)) return std::nullopt;
     return g;
@@ -89,80 +134,29 @@ double way_to_cracks(const State<2>& state, const CrackTip& tip, const Vec<2>& a
   return nearest;
 }
 
-/// Mass about a place over what a body at rest would have there: 1 inside, a half on a straight edge.
-double filled(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x, double density, double thickness) {
+/// Mass about a place over what a body at rest would have there: 1 inside, a half on a straight edge. Of the piece of material of a tip, or of all others.
+double filled(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x, const CrackTip& tip, bool of_others) {
+  const Material<2>& material = model.materials[tip.material];
+  const auto& fields = model.contact.fields;
   double mass = 0;
   for (const PointNode<2>& node : PointFields<2>(work, model).nodes(x)) {
     const BlockLayers<2>& layers = work.nodes.layers[node.block];
     for (std::size_t l = 0; l < layers.node.size(); ++l) {
-      if (model.ignores_cracks(layers.node[l].field)) continue;
+      const MaterialField& field = fields[layers.node[l].field];
+      if (field.ignores_cracks || (field.bonded_to != fields[material.field].bonded_to) != of_others) continue;
       mass += node.S * work.nodes.momentum[layers.slot(l, node.local)][2];
     }
   }
-  return mass / (density * model.grid.cell[0] * model.grid.cell[1] * thickness);
+  return mass / (material.law->density() * model.grid.cell[0] * model.grid.cell[1] * material.thickness);
 }
 
-/// A vertex at an end of a crack, at x; what it needs more is left to choose_anew().
-void add_vertex(Crack<2>& crack, const CrackTip& tip, const Vec<2>& x, std::vector<bool>& cracked) {
-  const auto put = [&](auto& list, const auto& item) { list.insert(tip.end == 0 ? list.begin() : list.end(), item); };
-  for (auto* points : {&crack.plane, &crack.upper, &crack.lower, &crack.original}) put(*points, x);
-  put(crack.upper_carriers, std::vector<Carrier>{});
-  put(crack.lower_carriers, std::vector<Carrier>{});
-  cracked.insert(tip.end == 0 ? cracked.begin() : cracked.end(), true);
-  crack.facets.push_back({static_cast<VertexId>(crack.facets.size()), static_cast<VertexId>(crack.facets.size() + 1)});
-  CrackTractionState<2>& t = crack.traction;
-  if (t.history.empty()) return;
-  put(t.area, 0.);
-  put(t.history, TractionHistory{});
-  put(t.force, Vec<2>{});
-  put(t.stored, 0.);
-  t.between.insert(tip.end == 0 ? t.between.begin() : t.between.end(), true);
-}
-
-/// New carriers for the vertices near a tip that has grown: particles that were seen around the old tip may lie across the crack now. Of a new vertex
-/// the place in the undeformed body follows from them.
-void choose_anew(State<2>& state, StepWork<2>& work, const Model<2>& model, const CrackTip& tip, std::size_t added) {
-  const CarrierChoice<2> choice(state, work, model);
-  const PointFields<2> surroundings(work, model);
-  Crack<2>& crack = state.cracks.list[tip.crack];
-  const std::vector<Vec<2>> normals = vertex_normals(crack);
-  const TipVertices vertices(crack, tip);
-  const double near = 3 * std::fmax(model.grid.cell[0], model.grid.cell[1]);
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    const std::size_t v = vertices[k];
-    const Vec<2>& x = crack.plane[v];
-    if (k >= added && norm(x - crack.plane[vertices[0]]) > near) break;
-    std::vector<Carrier> upper = choice.carriers(x, surroundings.beside(x, -normals[v]));
-    std::vector<Carrier> lower = choice.carriers(x, surroundings.beside(x, normals[v]));
-    if (k < added) {  // original + sum w u = x, and the weights make sum w x_p = x
-      Vec<2> sum{};
-      int sides = 0;
-      for (const auto* side : {&upper, &lower}) {
-        if (side->empty()) continue;
-        sum += x - carried_displacement(state, work, *side, PositionTime::leading);
-        ++sides;
-      }
-      if (sides > 0) crack.original[v] = sum * (1. / sides);
-    }
-    const auto take = [&](std::vector<Carrier>& from, std::vector<Carrier>& to, Vec<2>& point) {
-      if (from.empty()) return;
-      to = std::move(from);
-      point = crack.original[v] + carried_displacement(state, work, to, PositionTime::leading);
-    };
-    take(upper, crack.upper_carriers[v], crack.upper[v]);
-    take(lower, crack.lower_carriers[v], crack.lower[v]);
-  }
-}
-
-/// Shares of new segments in the area on which a traction law acts.
-void lay_tractions(Crack<2>& crack, const CrackTip& tip, std::size_t added, double thickness) {
-  const TipVertices vertices(crack, tip);
-  for (std::size_t k = 0; k < added; ++k) {
-    const std::size_t a = vertices[k], b = vertices[k + 1];
-    const double half = 0.5 * thickness * norm(crack.original[b] - crack.original[a]);
-    crack.traction.area[a] += half;
-    crack.traction.area[b] += half;
-  }
+/// How far a path goes on beyond the edge of its body for those who ask what it cuts, m: as far as lines from particles to nodes reach, but not into others.
+double extension_beyond(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x, const Vec<2>& e, const CrackTip& tip,
+                        double reach) {
+  const double step = 0.25 * model.grid.largest_cell();
+  double length = step;
+  while (length + step <= reach && filled(work, model, x + e * (length + step), tip, true) < 0.05) length += step;
+  return length;
 }
 
 template <int Dim, class Shape>
@@ -170,7 +164,7 @@ void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, Crack
   const GrowthModel& growth = model.growth[tip.crack];
   Crack<Dim>& crack = state.cracks.list[tip.crack];
   const TipFrame frame = present_frame(model, crack, tip);
-  const double h = std::fmax(model.grid.cell[0], model.grid.cell[1]), normal_segment = 0.5 * h;
+  const double h = model.grid.largest_cell(), normal_segment = 0.5 * h;
   const Vec<2> e = turned_left(frame.ahead, g.angle);
   const double rest = growth.largest_growth - tip.grown;
   double length = std::fmin(growth.increment, rest);
@@ -182,32 +176,27 @@ void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, Crack
     length = met + 1e-3 * h;  // a hair across, so that nothing passes between
     status = TipStatus::joined;
   }
-  const Material<2>& material = model.materials[tip.material];
-  const double density = material.law->density();
-  if (status != TipStatus::joined && filled(work, model, frame.tip + e * length, density, material.thickness) < 0.5) {
+  const Vec<2> end = frame.tip + e * length;
+  if (status != TipStatus::joined && filled(work, model, end, tip, false) < 0.5) {
     status = TipStatus::left;
-    crack.extension[tip.end] = 4 * h * std::fmax(1, Shape::reach(largest_half_extent) / 1.5);
+    crack.extension[tip.end] = extension_beyond(work, model, end, e, tip, h * reach_beyond_edges(Shape::reach(largest_half_extent)));
   }
 
   const auto count = static_cast<std::size_t>(std::fmax(1, std::floor(length / normal_segment + 0.25)));
-  for (std::size_t k = 1; k <= count; ++k) {
-    add_vertex(crack, tip, frame.tip + e * (length * static_cast<double>(k) / static_cast<double>(count)),
-               state.observed.cracked[tip.crack]);
-  }
-  view_cracks(state, work, model, cells_beyond<Shape>);
-  choose_anew(state, work, model, tip, count);
-  if (growth.bridged && !crack.traction.area.empty()) lay_tractions(crack, tip, count, model.tractions[tip.crack].thickness);
+  std::vector<Vec<2>> places;
+  for (std::size_t k = 1; k <= count; ++k) places.push_back(frame.tip + e * (length * static_cast<double>(k) / static_cast<double>(count)));
+  extend_crack(state, work, model, tip, places, cells_beyond<Shape>);
 
   // What a check is late, since steps end when they end, is not lost for the speed.
   const double since = tip.status == TipStatus::grows ? std::fmax(tip.next_check, state.clock.time - work.now.dt) : state.clock.time;
   tip.status = status;
   tip.grown += length;
   tip.speed = g.speed;
-  if (std::isfinite(tip.now.J)) state.fracture.released += tip.now.J * length * material.thickness;
+  if (std::isfinite(tip.now.J)) state.fracture.released += tip.now.J * length * model.materials[tip.material].thickness;
   tip.next_check = since + length / g.speed;
   using Kind = typename CrackEvent<Dim>::Kind;
-  CrackEvent<Dim> event{state.clock.time, tip.crack,   frame.tip + e * length, 0, 0, Kind::grew, tip.end, g.angle, g.speed, tip.now.J,
-                        tip.now.K_I,      tip.now.K_II};
+  CrackEvent<Dim> event{state.clock.time, tip.crack, end,     0,         0,           Kind::grew,
+                        tip.end,          g.angle,   g.speed, tip.now.J, tip.now.K_I, tip.now.K_II};
   if (status == TipStatus::joined) event.kind = Kind::joined;
   if (status == TipStatus::left) event.kind = Kind::left;
   if (status == TipStatus::arrested) event.kind = Kind::arrested;
@@ -225,7 +214,7 @@ void grow_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model
       if (!may_grow(tip, growth) || state.clock.time < tip.next_check * (1 - 1e-12)) continue;
       const TipState now = state_of_tip(state, model, tip, work.tips[t]);
       if (const auto g = decide(state, model, tip, growth, now)) {
-        tip.fired = tip.fired || growth.criterion->drive(now) >= growth.resistance.at(tip.grown, tip.speed);
+        tip.fired = tip.fired || g->first;
         grow<Dim, Shape>(state, work, model, tip, *g);
       } else {
         tip.next_check = state.clock.time + growth.interval;
