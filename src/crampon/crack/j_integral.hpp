@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <span>
 
 #include "crampon/crack/tip_domain.hpp"
@@ -15,10 +16,11 @@ struct FaceTraction {
 
 /// One side of a piece of crack: what the material along it holds.
 struct CrackSideSample {
-  Vec<2> place;         ///< of its middle, m
-  Vec<2> normal;        ///< out of the material
-  double length = 0;    ///< m
-  bool is_left = true;  ///< of the crack, seen towards the tip
+  Vec<2> place;           ///< of its middle, m
+  Vec<2> normal;          ///< out of the material
+  double length = 0;      ///< m
+  bool is_left = true;    ///< of the crack, seen towards the tip
+  std::size_t piece = 0;  ///< number of the piece, from the tip backwards
   Tensor2 stress{}, gradient{};
   double energy = 0;  ///< of stress work and motion, J/m3
 };

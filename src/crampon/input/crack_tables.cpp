@@ -57,6 +57,8 @@ const Declaration<GrowthInput>& growth_declaration() {
           .quantity("largest_growth", &GrowthInput::largest_growth, "m", Bounds::positive(),
                     "a tip stops for good when it has grown so far")
           .quantity("start", &GrowthInput::start, "s", Bounds::non_negative(), "no tip grows before")
+          .quantity("release", &GrowthInput::release, "1", Bounds::non_negative(),
+                    "cells that a tip goes on while what held the faces behind it together fades; 0: they come free at once")
           .flag("bridged", &GrowthInput::bridged, "the traction law of the crack acts on what grows as well")
           .quantities("r_curve_growth", &GrowthInput::r_curve_growth, "m", Bounds::non_negative(),
                       "growth at which r_curve_factor holds, from 0; straight between", Presence::optional, Length::at_least(2))

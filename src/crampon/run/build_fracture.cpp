@@ -35,6 +35,7 @@ GrowthModel build_growth(const GrowthInput& in, double h, double rayleigh) {
   if (in.largest_growth) out.largest_growth = *in.largest_growth;
   out.start = in.start;
   out.interval = 0.5 * h / rayleigh;
+  out.release = in.release * h;
   out.bridged = in.bridged;
   out.resistance.grown = in.r_curve_growth, out.resistance.factor = in.r_curve_factor;
   out.resistance.speed = in.rate_speed.value_or(0), out.resistance.exponent = in.rate_exponent;

@@ -51,6 +51,27 @@ struct CrackTractionState {
   }
 };
 
+/// What held the faces together at a vertex before a tip grew past it; it fades to nothing (docs/theory/fracture.md, release).
+template <int Dim>
+struct FadingTraction {
+  std::uint32_t vertex = 0;
+  Vec<Dim> at_first;            ///< on the upper surface when the tip grew, N
+  Vec<Dim> force;               ///< ... in the next step, N
+  Vec<Dim> opening;             ///< upper less lower surface, where its work has been counted to, m
+  double since = 0, until = 0;  ///< s
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [vertex, at_first, force, opening, since, until] = self;
+    visit(Member{"vertex"}, vertex);
+    visit(Member{"at_first", "N"}, at_first);
+    visit(Member{"force", "N"}, force);
+    visit(Member{"opening", "m"}, opening);
+    visit(Member{"since", "s"}, since);
+    visit(Member{"until", "s"}, until);
+  }
+};
+
 /// One crack. In 2D the vertices of facet k are k and k + 1 of a directed polyline; "above" is left of it (conventions, words and signs). In 3D
 /// facets are triangles that share vertices, all turned the same way.
 template <int Dim>
@@ -69,11 +90,12 @@ struct Crack {
   /// 2D, bit k of the start and of the end: it lies on a mirror across axis k, behind which the crack goes on as its image.
   std::array<std::uint8_t, 2> mirrored{};
   CrackTractionState<Dim> traction;
+  std::vector<FadingTraction<Dim>> fading;
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [name, fixed, closed, plane, upper, lower, original, facets, upper_carriers, lower_carriers, extension, mirrored, traction] =
-        self;
+    auto& [name, fixed, closed, plane, upper, lower, original, facets, upper_carriers, lower_carriers, extension, mirrored, traction,
+           fading] = self;
     visit(Member{"name"}, name);
     visit(Member{"fixed"}, fixed);
     visit(Member{"closed"}, closed);
@@ -87,6 +109,7 @@ struct Crack {
     visit(Member{"extension", "m"}, extension);
     visit(Member{"mirrored"}, mirrored);
     visit(Member{"traction"}, traction);
+    visit(Member{"fading"}, fading);
   }
 };
 

@@ -116,11 +116,13 @@ struct Fracture {
   std::vector<CrackTip> tips;
   double next = 0;      ///< when parameters are due, s
   double released = 0;  ///< J times the area by which tips have grown, J
+  double taken = 0;     ///< by faces that part as tips grow, J
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [tips, next, released] = self;
+    auto& [tips, next, released, taken] = self;
     visit(Member{"released", "J"}, released);
+    visit(Member{"taken", "J"}, taken);
     visit(Member{"tips"}, tips);
     visit(Member{"next", "s"}, next);
   }

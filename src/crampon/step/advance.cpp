@@ -27,7 +27,7 @@ struct Whether {
   static bool rigid_faces_meet_anew(S, W w, M m) { return w.now.transfer.re_extrapolates && m.any_rigid_face(); }
   static bool bodies_meet(S, W, M m) { return m.contact.any_contact(); }
   static bool faces_are_loaded(S, W, M m) { return !m.faces.empty(); }
-  static bool cracks_bear_tractions(S, W, M m) { return m.any_tractions(); }
+  static bool cracks_bear_tractions(S, W, M m) { return m.any_tractions() || m.any_growth(); }
   static bool there_are_cracks(S s, W, M) { return !s.cracks.empty(); }
   static bool growth_is_due(S, W w, M) { return w.now.growth_due; }
   static bool fracture_is_due(S, W w, M) { return w.now.fracture_due; }
@@ -229,7 +229,7 @@ std::vector<Stage<Dim>> stages() {
           {motion | fields | rotations, answers | velocities, motion | stress | slip | order | books}),
 
       // Task 8
-      once<Dim, move_cracks<Dim>, update_tractions<Dim>>("move cracks", If::there_are_cracks,
+      once<Dim, move_cracks<Dim>, update_tractions<Dim>, fade_tractions<Dim>>("move cracks", If::there_are_cracks,
                                                          {motion | momenta | fields, none, cracks | tractions}),
       once<Dim, end_rigid_motion<Dim>, close_step<Dim>, close_ledger<Dim>, check_health<Dim, Shape>>(
           "close the step", always, {books | motion, none, order | motion | cracks | prescribed | rigid}),

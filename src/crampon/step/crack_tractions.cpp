@@ -82,6 +82,15 @@ StiffestVertex spread_tractions(State<Dim>& state, StepWork<Dim>& work, const Mo
       if (longest < stiffest.time_step) stiffest = {longest, c, v};
     }
   }
+  for (const Crack<Dim>& crack : state.cracks.list) {
+    for (const FadingTraction<Dim>& f : crack.fading) {
+      if (crack.upper_carriers[f.vertex].empty() || crack.lower_carriers[f.vertex].empty()) continue;
+      find_nodes_of_point<Dim, Shape>(state, work, model, crack.upper_carriers[f.vertex], above);
+      find_nodes_of_point<Dim, Shape>(state, work, model, crack.lower_carriers[f.vertex], below);
+      share_force(work, above, f.force);
+      share_force(work, below, -f.force);
+    }
+  }
   state.clock.traction_time_step = stiffest.time_step;
   state.clock.least_traction_time_step = std::fmin(state.clock.least_traction_time_step, state.clock.traction_time_step);
   return stiffest;

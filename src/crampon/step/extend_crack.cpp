@@ -17,6 +17,9 @@ void add_vertex(Crack<2>& crack, const CrackTip& tip, const Vec<2>& x, std::vect
   put(crack.upper_carriers, std::vector<Carrier>{});
   put(crack.lower_carriers, std::vector<Carrier>{});
   put(cracked, true);
+  if (tip.end == 0) {
+    for (FadingTraction<2>& f : crack.fading) ++f.vertex;
+  }
   crack.facets.push_back({static_cast<VertexId>(crack.facets.size()), static_cast<VertexId>(crack.facets.size() + 1)});
   CrackTractionState<2>& t = crack.traction;
   if (t.history.empty()) return;

@@ -51,6 +51,7 @@ struct GrowthModel {
   double largest_growth = std::numeric_limits<double>::infinity();  ///< m
   double start = 0;                                                 ///< s
   double interval = 0;                                              ///< between two looks at a tip that does not grow, s
+  double release = 0;                                               ///< length of path over which new faces come free behind a tip, m
   bool bridged = false;                                             ///< the traction law of the crack acts on what grows
   Resistance resistance;
 

@@ -135,6 +135,9 @@ struct Model {
   bool any_tractions() const {
     return std::any_of(tractions.begin(), tractions.end(), [](const CrackTraction& t) { return t.acts(); });
   }
+  bool any_growth() const {
+    return std::any_of(growth.begin(), growth.end(), [](const GrowthModel& g) { return g.acts(); });
+  }
   bool is_rigid(std::uint16_t field) const { return contact.fields[field].rigid; }
   bool ignores_cracks(std::uint16_t field) const { return contact.fields[field].ignores_cracks; }
 };

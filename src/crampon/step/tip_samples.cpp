@@ -35,6 +35,11 @@ Vec<2> mean_turn(const State<2>& state, const Model<2>& model, const TipFrame& f
   return norm(sum) > 0 ? normalized(sum) : Vec<2>{{1, 0}};
 }
 
+/// Opening at the k-th vertex from a tip: left side less right, in its present frame, m.
+Vec<2> opening_at(const Crack<2>& crack, const TipVertices& vertices, const TipFrame& frame, std::size_t k) {
+  return frame.turned(crack.upper[vertices[k]] - crack.lower[vertices[k]]) * vertices.sign();
+}
+
 }  // namespace
 
 std::vector<TipWatch> watch_particles(const State<2>& state, const Model<2>& model) {
@@ -122,13 +127,11 @@ std::vector<TipSample> take_samples(const State<2>& state, const StepWork<2>& wo
 std::vector<FaceTraction> take_tractions(const State<2>& state, const Model<2>& model, const CrackTip& tip, double radius,
                                          const TipWeight* weight) {
   const Crack<2>& crack = state.cracks.list[tip.crack];
-  const CrackTraction& traction = model.tractions[tip.crack];
   std::vector<FaceTraction> pieces;
-  if (!traction.acts()) return pieces;
+  if (!model.tractions[tip.crack].acts()) return pieces;
   const TipVertices vertices(crack, tip);
   const TipFrame frame = present_frame(model, crack, tip);
   const Vec<2> x = crack.original[vertices[0]];
-  const auto opening = [&](std::size_t v) { return frame.turned(crack.upper[v] - crack.lower[v]) * vertices.sign(); };
   const auto traction_at = [&](std::size_t v) {
     if (!(crack.traction.area[v] > 0)) return Vec<2>{};
     return frame.turned(crack.traction.force[v]) * (-vertices.sign() / crack.traction.area[v]);
@@ -140,7 +143,36 @@ std::vector<FaceTraction> take_tractions(const State<2>& state, const Model<2>& 
     FaceTraction f;
     f.weight = weight ? weight->at(r) : 1;
     f.traction = (traction_at(near) + traction_at(far)) * 0.5;
-    f.opening_step = opening(near) - opening(far);
+    f.opening_step = opening_at(crack, vertices, frame, k) - opening_at(crack, vertices, frame, k + 1);
+    f.near = norm(crack.original[near] - x);
+    f.far = norm(crack.original[far] - x);
+    pieces.push_back(f);
+  }
+  return pieces;
+}
+
+std::vector<FaceTraction> take_contact_tractions(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWeight& weight,
+                                                 const std::vector<CrackSideSample>& sides, double modulus) {
+  const Crack<2>& crack = state.cracks.list[tip.crack];
+  const TipVertices vertices(crack, tip);
+  const TipFrame frame = present_frame(model, crack, tip);
+  const Vec<2> x = crack.original[vertices[0]];
+  const auto bears_a_law = [&](std::size_t v) { return !crack.traction.area.empty() && crack.traction.area[v] > 0; };
+  std::vector<FaceTraction> pieces;
+  for (std::size_t s = 0; s + 1 < sides.size(); ++s) {
+    const CrackSideSample &left = sides[s], &right = sides[s + 1];
+    if (left.piece != right.piece) continue;  // the other side holds no material
+    const std::size_t k = left.piece, near = vertices[k], far = vertices[k + 1];
+    if (bears_a_law(near) || bears_a_law(far)) continue;
+    const Vec<2>& up = right.normal;
+    FaceTraction f;
+    for (std::size_t i = 0; i < 2; ++i) f.traction[i] = 0.5 * (dot(left.stress[i], up) + dot(right.stress[i], up));
+    const Vec<2> at_near = opening_at(crack, vertices, frame, k), at_far = opening_at(crack, vertices, frame, k + 1);
+    const double pressure = -dot(f.traction, up), opening = 0.5 * dot(at_near + at_far, up);
+    if (!(pressure > 0) || opening * modulus > pressure * model.grid.largest_cell()) continue;
+    f.weight = weight.at(norm(left.place));
+    f.opening_step = at_near - at_far;
+    f.opening_step -= up * dot(f.opening_step, up);
     f.near = norm(crack.original[near] - x);
     f.far = norm(crack.original[far] - x);
     pieces.push_back(f);
@@ -164,7 +196,7 @@ std::vector<CrackSideSample> take_sides(const std::vector<Vec<2>>& path, const s
     const Vec<2> towards = normalized(way), left{{-towards[1], towards[0]}};
     for (const bool is_left : {true, false}) {
       CrackSideSample f;
-      f.place = middle, f.length = norm(way), f.is_left = is_left;
+      f.place = middle, f.length = norm(way), f.is_left = is_left, f.piece = k;
       f.normal = is_left ? -left : left;
       double weights = 0;
       for (const TipSample& s : samples) {

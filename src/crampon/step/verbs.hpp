@@ -344,6 +344,10 @@ void move_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model
 template <int Dim>
 void update_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
+/// Task 8: work of the tractions that fade behind tips that have grown (step/release_faces.hpp), and what is left of them in the next step. Serial.
+template <int Dim>
+void fade_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
 // After Task 8: the end of the step.
 
 /// The next step starts where this one ended. Serial.

@@ -10,6 +10,7 @@ struct EnergyBalance {
   double kinetic = 0, strain = 0;
   EnergyTotals totals;
   CohesiveTotals cohesive;
+  double growth = 0;            ///< taken by faces that part as cracks grow
   double material_loss = 0;     ///< taken by material laws
   bool laws_dissipate = false;  ///< a material of the problem can take energy
   double left = 0;              ///< kinetic and strain energy that left the grid
@@ -20,7 +21,7 @@ struct EnergyBalance {
   double closure() const {
     const double held = totals.interfaces + cohesive.stored;
     const double lost = totals.damping + totals.transfer_loss + totals.contact_loss + totals.friction_loss + cohesive.dissipated_normal +
-                        cohesive.dissipated_shear + material_loss;
+                        cohesive.dissipated_shear + material_loss + growth;
     return total() + held + lost + left - load_work() - totals.body_work - totals.boundary_work - at_start;
   }
 };
@@ -75,6 +76,7 @@ class Energies final : public Observer<Dim> {
     b.strain = now.sums().strain;
     b.totals = now.state.ledger.energy;
     b.cohesive = now.state.ledger.cohesive;
+    b.growth = now.state.fracture.taken;
     b.material_loss = now.sums().dissipated + now.state.ledger.left.dissipated;
     const auto& materials = now.model.materials;
     b.laws_dissipate =

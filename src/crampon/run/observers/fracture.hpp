@@ -16,7 +16,7 @@ class FractureParameters final : public Observer<Dim> {
     double length = 0;  ///< m
   };
   struct Released {
-    double energy = 0;  ///< J
+    double taken = 0, by_J = 0;  ///< J
   };
 
  public:
@@ -51,11 +51,13 @@ class FractureParameters final : public Observer<Dim> {
   static const auto& released_table() {
     static const std::vector<Column<Released>> all = {
         {{"fracture_energy", "J",
-          "what tips have taken by their J as they grew, since the start; where cracks grow. A face that comes free lets its energy go as "
-          "waves, so "
-          "that it is in the balance already: energy_closure does not count this column",
+          "taken by the faces that part as tips grow, since the start; where cracks grow. What has held them together fades, and does this "
+          "work",
+          "sum over steps of the fading tractions times the opening"},
+         [](const Released& r, int) { return r.taken; }},
+        {{"fracture_energy_by_J", "J", "what tips have taken by their J as they grew, since the start: not a part of the balance",
           "sum of J times the area by which a tip grows"},
-         [](const Released& r, int) { return r.energy; }},
+         [](const Released& r, int) { return r.by_J; }},
     };
     return all;
   }
@@ -79,7 +81,7 @@ class FractureParameters final : public Observer<Dim> {
       }
       const auto& growth = now.model.growth;
       if (std::any_of(growth.begin(), growth.end(), [](const GrowthModel& g) { return g.acts(); }))
-        cells.add<Dim>(released_table(), Released{now.state.fracture.released});
+        cells.add<Dim>(released_table(), Released{now.state.fracture.taken, now.state.fracture.released});
     }
   }
 };

@@ -37,9 +37,13 @@ void find_parameters(const State<2>& state, const StepWork<2>& work, const Model
   tip.material = material;
   const TipWeight weight(room.radius * model.fracture.inner / model.fracture.outer, room.radius);
   const std::vector<TipSample> samples = take_samples(state, work, model, frame, watch, material, room.radius, dt);
-  const std::vector<FaceTraction> tractions = take_tractions(state, model, tip, room.radius, &weight);
   const std::vector<Vec<2>> path = path_behind(crack, tip, frame);
   const std::vector<CrackSideSample> sides = take_sides(path, samples, room.radius, h);
+  std::vector<FaceTraction> tractions = take_tractions(state, model, tip, room.radius, &weight);
+  const MaterialLaw& law = *model.materials[material].law;
+  const double speed = law.wave_speed(model.stress_state);
+  for (const FaceTraction& f : take_contact_tractions(state, model, tip, weight, sides, law.density() * speed * speed))
+    tractions.push_back(f);
   const Vec<2> J = j_integral(samples, weight, tractions, sides);
   now.J = J[0], now.J_across = J[1];
   now.J_far = J[0];
@@ -48,7 +52,7 @@ void find_parameters(const State<2>& state, const StepWork<2>& work, const Model
   const Vec<2> opening = opening_behind(model, crack, tip);
   now.phase = std::atan2(opening[0], opening[1]);
 
-  const auto elastic = model.materials[material].law->elasticity();
+  const auto elastic = law.elasticity();
   const bool one_material = std::all_of(watch.particles.begin(), watch.particles.end(), [&](const WatchedParticle& w) {
     return w.material == material || !belong_together(model, w.material, material) ||
            norm(state.particles.original[w.slot] - frame.tip) >= room.radius || model.materials[w.material].law->elasticity() == elastic;

@@ -11,6 +11,7 @@
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/particle_view.hpp"
 #include "crampon/step/point_fields.hpp"
+#include "crampon/step/release_faces.hpp"
 #include "crampon/step/tip_frame.hpp"
 #include "crampon/step/tip_room.hpp"
 #include "crampon/step/verbs.hpp"
@@ -160,7 +161,7 @@ double extension_beyond(const StepWork<2>& work, const Model<2>& model, const Ve
 }
 
 template <int Dim, class Shape>
-void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, CrackTip& tip, const Growth& g) {
+void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, CrackTip& tip, const TipWatch& watch, const Growth& g) {
   const GrowthModel& growth = model.growth[tip.crack];
   Crack<Dim>& crack = state.cracks.list[tip.crack];
   const TipFrame frame = present_frame(model, crack, tip);
@@ -186,6 +187,7 @@ void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, Crack
   std::vector<Vec<2>> places;
   for (std::size_t k = 1; k <= count; ++k) places.push_back(frame.tip + e * (length * static_cast<double>(k) / static_cast<double>(count)));
   extend_crack(state, work, model, tip, places, cells_beyond<Shape>);
+  if (growth.release > 0) release_faces(state, model, tip, watch, places.size(), state.clock.time + growth.release / g.speed);
 
   // What a check is late, since steps end when they end, is not lost for the speed.
   const double since = tip.status == TipStatus::grows ? std::fmax(tip.next_check, state.clock.time - work.now.dt) : state.clock.time;
@@ -215,7 +217,7 @@ void grow_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model
       const TipState now = state_of_tip(state, model, tip, work.tips[t]);
       if (const auto g = decide(state, model, tip, growth, now)) {
         tip.fired = tip.fired || g->first;
-        grow<Dim, Shape>(state, work, model, tip, *g);
+        grow<Dim, Shape>(state, work, model, tip, work.tips[t], *g);
       } else {
         tip.next_check = state.clock.time + growth.interval;
       }
