@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <span>
 
-#include "crampon/crack/tip_domain.hpp"
+#include "crampon/crack/virtual_extension.hpp"
 
 namespace crampon {
 
@@ -27,10 +27,10 @@ struct CrackSideSample {
 
 /// J of a tip, in its frame, J/m2: what goes into the tip if it moves on along the first axis, or along the second. As a sum over particles
 /// (docs/theory/fracture.md, J as an integral over the domain):
-///   J_k = sum A { [P_iJ u_i,k - (W + K) delta_kJ] q,J + rho [a_i u_i,k - v_i v_i,k] q } + sum q T . d(opening) + sum l q (W + K) n_k,
-/// with K the kinetic energy. Tractions of the faces take their part on the way. The last sum is over both faces of the crack: along the first axis it is
-/// nothing unless the path bends.
-Vec<2> j_integral(std::span<const TipSample> samples, const TipWeight& weight, std::span<const FaceTraction> tractions,
+///   J_1 = sum A { [P_iJ u_i,k - (W + K) delta_kJ] q_k,J + rho [a_i u_i,k - v_i v_i,k] q_k } + sum |q| T . d(opening),
+/// with K the kinetic energy and q the virtual extension, which runs along the faces. Tractions of the faces take their part on the way. J_2 is the same with a shift to the left,
+/// which does not run along them: sum l q (W + K) n_2 over both faces joins.
+Vec<2> j_integral(std::span<const TipSample> samples, const VirtualExtension& extension, std::span<const FaceTraction> tractions,
                   std::span<const CrackSideSample> faces = {});
 
 }  // namespace crampon

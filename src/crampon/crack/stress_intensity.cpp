@@ -18,7 +18,7 @@ TipField tip_field(const PlaneElasticity& elastic, const StressIntensity& K, dou
   return field;
 }
 
-StressIntensity interaction_integral(std::span<const TipSample> samples, const TipWeight& weight, const TipPath& path,
+StressIntensity interaction_integral(std::span<const TipSample> samples, const VirtualExtension& extension, const TipPath& path,
                                      const PlaneElasticity& elastic, std::span<const FaceTraction> tractions,
                                      std::span<const CrackSideSample> faces) {
   double I[2] = {0, 0};
@@ -31,31 +31,35 @@ StressIntensity interaction_integral(std::span<const TipSample> samples, const T
   for (const TipSample& s : samples) {
     const double r = norm(s.place);
     if (!(r > 0)) continue;
-    const double q = weight.at(r), theta = path.direction(s.place);
-    const Vec<2> slope = s.place * (weight.slope(r) / r);
+    const VirtualExtension::Shift shift = extension.at(s.place);
+    const double theta = path.direction(s.place);
     for (int mode = 0; mode < 2; ++mode) {
       const TipField known = tip_field(elastic, mode == 0 ? StressIntensity{1, 0} : StressIntensity{0, 1}, r, theta);
-      double flux = 0, work = 0, inertia = 0;
-      for (std::size_t i = 0; i < 2; ++i) {
-        flux += dot(s.stress[i], slope) * known.gradient[i][0] + dot(known.stress[i], slope) * s.gradient[i][0];
-        work += dot(s.stress[i], known.gradient[i]);
-        inertia += s.inertia[i] * known.gradient[i][0];
+      const double work = dot(s.stress[0], known.gradient[0]) + dot(s.stress[1], known.gradient[1]);
+      double flux = 0, inertia = 0;
+      for (std::size_t k = 0; k < 2; ++k) {
+        flux -= work * shift.gradient[k][k];
+        for (std::size_t i = 0; i < 2; ++i) {
+          flux += dot(s.stress[i], shift.gradient[k]) * known.gradient[i][k] + dot(known.stress[i], shift.gradient[k]) * s.gradient[i][k];
+          inertia += s.inertia[i] * known.gradient[i][k] * shift.q[k];
+        }
       }
-      I[mode] += s.area * (flux - work * slope[0] + s.density * inertia * q);
+      I[mode] += s.area * (flux + s.density * inertia);
     }
   }
   // Where the path bends, the known field has tractions on the faces.
   for (const CrackSideSample& f : faces) {
-    const double r = norm(f.place), q = weight.at(r), theta = path.angle(r) - (f.is_left ? 0 : 2 * std::numbers::pi);
-    if (!(r > 0) || q == 0) continue;
+    const double r = norm(f.place), theta = path.angle(r) - (f.is_left ? 0 : 2 * std::numbers::pi);
+    const Vec<2> q = extension.at(f.place).q;
+    if (!(r > 0) || norm(q) == 0) continue;
     for (int mode = 0; mode < 2; ++mode) {
       const TipField known = tip_field(elastic, mode == 0 ? StressIntensity{1, 0} : StressIntensity{0, 1}, r, theta);
       double work = 0, across = 0;
       for (std::size_t i = 0; i < 2; ++i) {
         work += dot(f.stress[i], known.gradient[i]);
-        across += dot(known.stress[i], f.normal) * f.gradient[i][0];
+        across += dot(known.stress[i], f.normal) * dot(f.gradient[i], q);
       }
-      I[mode] += (work * f.normal[0] - across) * q * f.length;
+      I[mode] += (work * dot(f.normal, q) - across) * f.length;
     }
   }
   return {0.5 * elastic.modulus * I[0], 0.5 * elastic.modulus * I[1]};

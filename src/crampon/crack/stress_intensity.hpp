@@ -30,7 +30,7 @@ struct TipField {
 TipField tip_field(const PlaneElasticity& elastic, const StressIntensity& K, double r, double theta);
 
 /// By the interaction integral: J of the sum of the fields and a known field, less J of each (docs/theory/fracture.md, stress intensities).
-StressIntensity interaction_integral(std::span<const TipSample> samples, const TipWeight& weight, const TipPath& path,
+StressIntensity interaction_integral(std::span<const TipSample> samples, const VirtualExtension& extension, const TipPath& path,
                                      const PlaneElasticity& elastic, std::span<const FaceTraction> tractions,
                                      std::span<const CrackSideSample> faces = {});
 

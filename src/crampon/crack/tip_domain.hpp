@@ -64,6 +64,7 @@ class TipWeight {
     const double s = part(r);
     return -6 * s * (1 - s) / (outer_ - inner_);
   }
+  double outer() const { return outer_; }  ///< m
 
  private:
   double part(double r) const { return std::clamp((r - inner_) / (outer_ - inner_), 0., 1.); }

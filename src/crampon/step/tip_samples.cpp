@@ -1,5 +1,6 @@
 #include "crampon/step/tip_samples.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -125,7 +126,7 @@ std::vector<TipSample> take_samples(const State<2>& state, const StepWork<2>& wo
 }
 
 std::vector<FaceTraction> take_tractions(const State<2>& state, const Model<2>& model, const CrackTip& tip, double radius,
-                                         const TipWeight* weight) {
+                                         const VirtualExtension* extension) {
   const Crack<2>& crack = state.cracks.list[tip.crack];
   std::vector<FaceTraction> pieces;
   if (!model.tractions[tip.crack].acts()) return pieces;
@@ -141,7 +142,7 @@ std::vector<FaceTraction> take_tractions(const State<2>& state, const Model<2>& 
     const double r = norm((crack.original[near] + crack.original[far]) * 0.5 - x);
     if (r >= radius) break;
     FaceTraction f;
-    f.weight = weight ? weight->at(r) : 1;
+    f.weight = extension ? extension->on_path(r) : 1;
     f.traction = (traction_at(near) + traction_at(far)) * 0.5;
     f.opening_step = opening_at(crack, vertices, frame, k) - opening_at(crack, vertices, frame, k + 1);
     f.near = norm(crack.original[near] - x);
@@ -151,13 +152,18 @@ std::vector<FaceTraction> take_tractions(const State<2>& state, const Model<2>& 
   return pieces;
 }
 
-std::vector<FaceTraction> take_contact_tractions(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWeight& weight,
-                                                 const std::vector<CrackSideSample>& sides, double modulus) {
+std::vector<FaceTraction> take_contact_tractions(const State<2>& state, const Model<2>& model, const CrackTip& tip,
+                                                 const VirtualExtension& extension, const std::vector<CrackSideSample>& sides,
+                                                 double modulus) {
   const Crack<2>& crack = state.cracks.list[tip.crack];
   const TipVertices vertices(crack, tip);
   const TipFrame frame = present_frame(model, crack, tip);
   const Vec<2> x = crack.original[vertices[0]];
   const auto bears_a_law = [&](std::size_t v) { return !crack.traction.area.empty() && crack.traction.area[v] > 0; };
+  // Means beside the faces also hold what is ahead of a tip within 1.5 cells: there the stress of the first piece beyond is taken.
+  const double h = model.grid.largest_cell();
+  std::size_t clear = 0;
+  while (clear + 1 < sides.size() && (norm(sides[clear].place) < 1.5 * h || sides[clear].piece != sides[clear + 1].piece)) ++clear;
   std::vector<FaceTraction> pieces;
   for (std::size_t s = 0; s + 1 < sides.size(); ++s) {
     const CrackSideSample &left = sides[s], &right = sides[s + 1];
@@ -166,11 +172,12 @@ std::vector<FaceTraction> take_contact_tractions(const State<2>& state, const Mo
     if (bears_a_law(near) || bears_a_law(far)) continue;
     const Vec<2>& up = right.normal;
     FaceTraction f;
-    for (std::size_t i = 0; i < 2; ++i) f.traction[i] = 0.5 * (dot(left.stress[i], up) + dot(right.stress[i], up));
+    const std::size_t from = clear + 1 < sides.size() ? std::max(s, clear) : s;
+    for (std::size_t i = 0; i < 2; ++i) f.traction[i] = 0.5 * (dot(sides[from].stress[i], up) + dot(sides[from + 1].stress[i], up));
     const Vec<2> at_near = opening_at(crack, vertices, frame, k), at_far = opening_at(crack, vertices, frame, k + 1);
     const double pressure = -dot(f.traction, up), opening = 0.5 * dot(at_near + at_far, up);
-    if (!(pressure > 0) || opening * modulus > pressure * model.grid.largest_cell()) continue;
-    f.weight = weight.at(norm(left.place));
+    if (!(pressure > 0) || opening * modulus > pressure * h) continue;
+    f.weight = extension.on_path(norm(left.place));
     f.opening_step = at_near - at_far;
     f.opening_step -= up * dot(f.opening_step, up);
     f.near = norm(crack.original[near] - x);

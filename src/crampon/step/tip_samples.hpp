@@ -19,14 +19,15 @@ std::vector<TipWatch> watch_particles(const State<2>& state, const Model<2>& mod
 std::vector<TipSample> take_samples(const State<2>& state, const StepWork<2>& work, const Model<2>& model, const TipFrame& frame,
                                     const TipWatch& watch, std::uint32_t material, double radius, double dt);
 
-/// Pieces of the crack with a middle within the radius (m; infinite: all of it) that bear tractions. weight: none counts 1.
+/// Pieces of the crack with a middle within the radius (m; infinite: all of it) that bear tractions of a law. extension: of the crack; null: all count 1.
 std::vector<FaceTraction> take_tractions(const State<2>& state, const Model<2>& model, const CrackTip& tip, double radius,
-                                         const TipWeight* weight);
+                                         const VirtualExtension* extension);
 
 /// Pieces of the crack on which no law acts and which are pressed together, with the traction of their contact: the mean stress beside them (sides, of take_sides). Pressed are
 /// those which bear pressure and whose opening is less than what that pressure strains in a cell. What they give way across the crack is not counted. modulus: Pa.
-std::vector<FaceTraction> take_contact_tractions(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWeight& weight,
-                                                 const std::vector<CrackSideSample>& sides, double modulus);
+std::vector<FaceTraction> take_contact_tractions(const State<2>& state, const Model<2>& model, const CrackTip& tip,
+                                                 const VirtualExtension& extension, const std::vector<CrackSideSample>& sides,
+                                                 double modulus);
 
 /// The path of the crack from the tip backwards, m.
 std::vector<Vec<2>> path_behind(const Crack<2>& crack, const CrackTip& tip, const TipFrame& frame);

@@ -35,16 +35,16 @@ void find_parameters(const State<2>& state, const StepWork<2>& work, const Model
   const TipFrame frame = original_frame(model, crack, tip);
   const std::uint32_t material = *material_at_tip(state, model, frame.tip, watch);
   tip.material = material;
-  const TipWeight weight(room.radius * model.fracture.inner / model.fracture.outer, room.radius);
   const std::vector<TipSample> samples = take_samples(state, work, model, frame, watch, material, room.radius, dt);
   const std::vector<Vec<2>> path = path_behind(crack, tip, frame);
+  const VirtualExtension extension(TipWeight(room.radius * model.fracture.inner / model.fracture.outer, room.radius), TipPath(path), h);
   const std::vector<CrackSideSample> sides = take_sides(path, samples, room.radius, h);
-  std::vector<FaceTraction> tractions = take_tractions(state, model, tip, room.radius, &weight);
+  std::vector<FaceTraction> tractions = take_tractions(state, model, tip, room.radius, &extension);
   const MaterialLaw& law = *model.materials[material].law;
   const double speed = law.wave_speed(model.stress_state);
-  for (const FaceTraction& f : take_contact_tractions(state, model, tip, weight, sides, law.density() * speed * speed))
+  for (const FaceTraction& f : take_contact_tractions(state, model, tip, extension, sides, law.density() * speed * speed))
     tractions.push_back(f);
-  const Vec<2> J = j_integral(samples, weight, tractions, sides);
+  const Vec<2> J = j_integral(samples, extension, tractions, sides);
   now.J = J[0], now.J_across = J[1];
   now.J_far = J[0];
   for (const FaceTraction& f : take_tractions(state, model, tip, std::numeric_limits<double>::infinity(), nullptr))
@@ -65,7 +65,7 @@ void find_parameters(const State<2>& state, const StepWork<2>& work, const Model
     const PlaneElasticity plane(elastic->plane_lambda(model.stress_state), elastic->mu);
     StressIntensity K;
     if (model.fracture.mixity == FractureModel::Mixity::interaction) {
-      K = share(now.J, interaction_integral(samples, weight, TipPath(path), plane, tractions, sides), plane);
+      K = share(now.J, interaction_integral(samples, extension, TipPath(path), plane, tractions, sides), plane);
     } else {
       K = partition_by_opening(now.J, opening, plane);
     }

@@ -73,8 +73,22 @@ TipState state_of_tip(const State<2>& state, const Model<2>& model, const CrackT
   return out;
 }
 
+/// The way from the frame of a tip to its last segment, rad, where they differ by more than 20 degrees: the tip has just turned, and the cells do not see yet by how much. Its
+/// parameters are still those of a tip at the corner, and would turn it again.
+std::optional<double> unseen_turn(const Crack<2>& crack, const CrackTip& tip, const TipFrame& frame) {
+  const TipVertices vertices(crack, tip);
+  const double angle = angle_from(frame.ahead, crack.plane[vertices[0]] - crack.plane[vertices[1]]);
+  if (std::fabs(angle) < 20 * std::numbers::pi / 180) return std::nullopt;
+  return angle;
+}
+
 double angle_of(const GrowthModel& growth, const GrowthCriterion& criterion, const TipState& now, const CrackTip& tip,
-                const TipFrame& frame) {
+                const TipFrame& frame, const Crack<2>& crack) {
+  const bool asks_parameters = growth.direction == GrowthDirection::criterion || growth.direction == GrowthDirection::across_opening ||
+                               growth.direction == GrowthDirection::hoop_of_opening;
+  if (asks_parameters && tip.grown > 0) {
+    if (const auto angle = unseen_turn(crack, tip, frame)) return *angle;
+  }
   switch (growth.direction) {
     case GrowthDirection::criterion:
       return criterion.angle(now);
@@ -106,7 +120,7 @@ std::optional<Growth> decide(const State<2>& state, const Model<2>& model, const
     if (criterion.needs_intensities() && !std::isfinite(now.K.I)) return std::nullopt;
     const double drive = criterion.drive(now) / resistance;
     if (!(drive >= 1)) return std::nullopt;
-    Growth g{angle_of(growth, criterion, now, tip, frame), std::fmin(growth.largest_speed, criterion.speed(now)),
+    Growth g{angle_of(growth, criterion, now, tip, frame, state.cracks.list[tip.crack]), std::fmin(growth.largest_speed, criterion.speed(now)),
              &criterion == &*growth.criterion};
     if (growth.by_rate) g.speed = std::fmin(g.speed, growth.largest_speed * (1 - 1 / drive));
     if (!(g.speed > 1e-6 * growth.largest_speed)) return std::nullopt;
