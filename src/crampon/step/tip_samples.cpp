@@ -130,13 +130,14 @@ std::vector<FaceTraction> take_tractions(const State<2>& state, const Model<2>& 
   const Vec<2> x = crack.original[vertices[0]];
   const auto opening = [&](std::size_t v) { return frame.turned(crack.upper[v] - crack.lower[v]) * vertices.sign(); };
   const auto traction_at = [&](std::size_t v) {
-    if (!(crack.traction.area[v] > 0)) return Vec<2>{};
     return frame.turned(crack.traction.force[v]) * (-vertices.sign() / crack.traction.area[v]);
   };
   for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
     const std::size_t near = vertices[k], far = vertices[k + 1];
     const double r = norm((crack.original[near] + crack.original[far]) * 0.5 - x);
     if (r >= radius) break;
+    // A law acts on pieces both ends of which bear it (areas_between()).
+    if (!(crack.traction.area[near] > 0 && crack.traction.area[far] > 0)) continue;
     FaceTraction f;
     f.weight = weight ? weight->at(r) : 1;
     f.traction = (traction_at(near) + traction_at(far)) * 0.5;
