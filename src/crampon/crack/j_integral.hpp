@@ -21,6 +21,7 @@ struct CrackSideSample {
   bool is_left = true;  ///< of the crack, seen towards the tip
   Tensor2 stress{}, gradient{};
   double energy = 0;  ///< of stress work and motion, J/m3
+  Vec<2> momentum;    ///< per volume, kg/(m2 s)
 };
 
 /// J of a tip, in its frame, J/m2: what goes into the tip if it moves on along the first axis, or along the second. As a sum over particles

@@ -175,10 +175,12 @@ std::vector<CrackSideSample> take_sides(const std::vector<Vec<2>>& path, const s
         const double w = s.area * (1 - square) * (1 - square);
         weights += w;
         f.energy += w * (s.energy + 0.5 * s.density * dot(s.velocity, s.velocity));
+        f.momentum += s.velocity * (w * s.density);
         for (std::size_t i = 0; i < 2; ++i) f.stress[i] += s.stress[i] * w, f.gradient[i] += s.gradient[i] * w;
       }
       if (!(weights > 0)) continue;
       f.energy *= 1 / weights;
+      f.momentum *= 1 / weights;
       for (std::size_t i = 0; i < 2; ++i) f.stress[i] *= 1 / weights, f.gradient[i] *= 1 / weights;
       sides.push_back(f);
     }

@@ -61,7 +61,7 @@ TipState state_of_tip(const State<2>& state, const Model<2>& model, const CrackT
   const GrowthModel& growth = model.growth[tip.crack];
   TipState out;
   out.J = tip.now.J;
-  out.K = {tip.now.K_I, tip.now.K_II};
+  out.K = {tip.now.rest_I, tip.now.rest_II};
   out.opening = opening_behind(model, state.cracks.list[tip.crack], tip);
   if (const auto elastic = model.materials[tip.material].law->elasticity())
     out.elastic = PlaneElasticity(elastic->plane_lambda(model.stress_state), elastic->mu);
