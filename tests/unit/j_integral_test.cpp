@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "crampon/crack/contour_integral.hpp"
 #include "crampon/crack/j_integral.hpp"
 #include "crampon/crack/stress_intensity.hpp"
 
@@ -55,6 +56,11 @@ std::vector<TipSample> static_field(const PlaneElasticity& elastic, const Stress
 }
 const TipPath straight({Vec<2>{}, Vec<2>{{-50, 0}}});
 const TipWeight weight(inner, outer);
+/// J along a circle in the middle of the ring where the weight falls.
+Vec<2> along_circle(const std::vector<TipSample>& samples, const std::vector<FaceTraction>& tractions = {},
+                    const std::vector<CrackSideSample>& faces = {}, double radius = 0.5 * (inner + outer)) {
+  return contour_integral(samples, straight, radius, 1, tractions, faces);
+}
 /// Places of a tip in a cell and angles of the grid to the crack.
 template <class F>
 void for_places(F f) {
@@ -89,22 +95,30 @@ TEST(TipField, StressFollowsFromTheGradientAndFacesAreFree) {
 // Sums over the lattice are off by what its rows do not see of a field that varies over a few of them. Along the faces, where the stress of sliding
 // jumps, a crack that does not run between two rows has up to a quarter of a row too much on one side: the bars of sliding.
 constexpr double of_sums = 0.01, of_faces = 0.075;
+// Both forms of J are off by so much each, with signs that have nothing to do with each other.
+constexpr double between_forms = 2 * of_sums;
 
 TEST(JIntegral, OfTheFieldOfATipIsItsEnergyRelease) {
-  double worst = 0;
+  double worst = 0, worst_on_circle = 0;
   for (const PlaneElasticity& elastic : {plane_strain, plane_stress}) {
     for_places([&](const Vec<2>& offset, double angle) {
       for (const StressIntensity K :
            {StressIntensity{1e6, 0}, StressIntensity{0, 1e6}, StressIntensity{1e6, 0.5e6}, StressIntensity{1e6, -2e6}}) {
         const double G = (K.I * K.I + K.II * K.II) / elastic.modulus;
-        const Vec<2> J = j_integral(static_field(elastic, K, {}, offset, angle), weight, {});
-        EXPECT_NEAR(J[0], G, of_sums * G);
-        EXPECT_NEAR(J[1], -2 * K.I * K.II / elastic.modulus, of_sums * G);
+        const auto samples = static_field(elastic, K, {}, offset, angle);
+        const Vec<2> J = j_integral(samples, weight, {}), on_circle = along_circle(samples);
+        for (const Vec<2>& found : {J, on_circle}) {
+          EXPECT_NEAR(found[0], G, of_sums * G);
+          EXPECT_NEAR(found[1], -2 * K.I * K.II / elastic.modulus, of_sums * G);
+        }
+        EXPECT_NEAR(J[0], on_circle[0], between_forms * G);
         worst = std::fmax(worst, std::fabs(J[0] / G - 1));
+        worst_on_circle = std::fmax(worst_on_circle, std::fabs(on_circle[0] / G - 1));
       }
     });
   }
   RecordProperty("worst", std::to_string(worst));
+  RecordProperty("worst_on_circle", std::to_string(worst_on_circle));
 }
 
 TEST(JIntegral, SeesNeitherUniformStressNorTurns) {
@@ -116,6 +130,7 @@ TEST(JIntegral, SeesNeitherUniformStressNorTurns) {
     const double G = (K.I * K.I + K.II * K.II) / plane_stress.modulus;
     const auto samples = static_field(plane_stress, K, along, offset, angle);
     EXPECT_NEAR(j_integral(samples, weight, {})[0], G, 0.025 * G);
+    EXPECT_NEAR(along_circle(samples)[0], G, 0.025 * G);
     const StressIntensity found = interaction_integral(samples, weight, straight, plane_stress, {});
     EXPECT_NEAR(found.I, K.I, of_sums * K.I);
     EXPECT_NEAR(found.II, K.II, of_faces * K.I);
@@ -145,6 +160,11 @@ TEST(JIntegral, CountsTheEnergyOfFaces) {
     const TipWeight disk(0.4 * radius, radius);
     EXPECT_NEAR(j_integral(samples, disk, {}, faces)[1], across, 0.03 * std::fabs(across)) << radius;
     EXPECT_GT(std::fabs(j_integral(samples, disk, {})[1] - across), 0.06 * std::fabs(across)) << "without faces";
+  }
+  // On a circle the ends at the faces, where the fit sees one side alone, weigh more in this component: 3 % at the smallest.
+  for (const double radius : {2.5, 3., 3.5}) {
+    EXPECT_NEAR(along_circle(samples, {}, faces, radius)[1], across, 0.04 * std::fabs(across)) << radius;
+    EXPECT_GT(std::fabs(along_circle(samples, {}, {}, radius)[1] - across), 0.4 * std::fabs(across)) << "without faces";
   }
 }
 
@@ -182,11 +202,13 @@ TEST(Interaction, OfACrackThatPressesOpen) {
     }
     const double G = (K.I * K.I + K.II * K.II) / plane_strain.modulus;
     EXPECT_NEAR(j_integral(samples, weight, faces)[0], G, 0.025 * G);
+    EXPECT_NEAR(along_circle(samples, faces)[0], G, 0.025 * G);
     const StressIntensity found = interaction_integral(samples, weight, straight, plane_strain, faces);
     EXPECT_NEAR(found.I, K.I, of_sums * K.I);
     EXPECT_NEAR(found.II, K.II, of_faces * K.I);
     // Without what the pressure does there both are wrong: the test would see it.
     EXPECT_GT(std::fabs(j_integral(samples, weight, {})[0] - G), 0.2 * G);
+    EXPECT_GT(std::fabs(along_circle(samples)[0] - G), 0.2 * G);
     EXPECT_GT(std::fabs(interaction_integral(samples, weight, straight, plane_strain, {}).I - K.I), 0.1 * K.I);
   });
 }
@@ -215,6 +237,8 @@ TEST(JIntegral, OfAWaveThroughWholeMaterialIsNothing) {
         // Energy times the width of the domain is what could have come.
         for (const double J : {j_integral(samples, weight, {})[0], j_integral(samples, weight, {})[1]})
           EXPECT_NEAR(J, 0, 0.015 * scale * outer);
+        // Fits over three cells smooth what repeats every five, and the edge of what lies inside is the particles'.
+        for (const double J : {along_circle(samples)[0], along_circle(samples)[1]}) EXPECT_NEAR(J, 0, 0.04 * scale * outer);
       }
     }
   }
@@ -238,29 +262,146 @@ struct RunningTip {
   }
 };
 
-TEST(JIntegral, OfARunningTipIsItsEnergyRelease) {
-  for (const double part : {0.2, 0.5, 0.7}) {  // of the speed of Rayleigh waves, .926 c_s or so
-    const double speed = part * 0.926 * std::sqrt(mu / rho);
-    const RunningTip field(speed);
+const double rayleigh = 0.9274 * std::sqrt(mu / rho);  // m/s: the speed of Rayleigh waves at nu = .3
+
+/// Particles about a tip that runs with K_I = 1.
+std::vector<TipSample> running_field(double speed, const Vec<2>& offset, double angle) {
+  const RunningTip field(speed);
+  return lattice(offset, angle, [&](TipSample& s) {
+    const double h = 1e-4 * norm(s.place);
+    const auto u = [&](double i, double j) { return field.displacement(s.place[0] + i * h, s.place[1] + j * h); };
+    const Vec<2> along = (u(1, 0) - u(-1, 0)) * (0.5 / h), across = (u(0, 1) - u(0, -1)) * (0.5 / h);
+    const Vec<2> twice = (u(1, 0) + u(-1, 0) - u(0, 0) * 2) * (1 / (h * h));
+    const Vec<2> mixed = (u(1, 1) - u(-1, 1) - u(1, -1) + u(-1, -1)) * (0.25 / (h * h));
+    s.gradient = {Vec<2>{{along[0], across[0]}}, Vec<2>{{along[1], across[1]}}};
+    s.velocity = along * -speed;
+    s.inertia = twice * (speed * speed);
+    s.rate = {Vec<2>{{twice[0], mixed[0]}} * -speed, Vec<2>{{twice[1], mixed[1]}} * -speed};
+    s.stress = stress_of(plane_strain, s.gradient);
+    s.energy = energy_of(s.stress, s.gradient);
+  });
+}
+/// Places of a running tip, speeds as parts of that of Rayleigh waves.
+template <class F>
+void for_running_tips(F f) {
+  for (const double part : {0.3, 0.6, 0.8}) {
     for (const double x : {0., 0.13, 0.25}) {
-      for (const double degrees : {0., 20., 45.}) {
-        const auto samples = lattice({{x, 0.2}}, degrees * std::numbers::pi / 180, [&](TipSample& s) {
-          const double h = 1e-4 * norm(s.place);
-          const auto u = [&](double i, double j) { return field.displacement(s.place[0] + i * h, s.place[1] + j * h); };
-          const Vec<2> along = (u(1, 0) - u(-1, 0)) * (0.5 / h), across = (u(0, 1) - u(0, -1)) * (0.5 / h);
-          const Vec<2> twice = (u(1, 0) + u(-1, 0) - u(0, 0) * 2) * (1 / (h * h));
-          const Vec<2> mixed = (u(1, 1) - u(-1, 1) - u(1, -1) + u(-1, -1)) * (0.25 / (h * h));
-          s.gradient = {Vec<2>{{along[0], across[0]}}, Vec<2>{{along[1], across[1]}}};
-          s.velocity = along * -speed;
-          s.inertia = twice * (speed * speed);
-          s.rate = {Vec<2>{{twice[0], mixed[0]}} * -speed, Vec<2>{{twice[1], mixed[1]}} * -speed};
-          s.stress = stress_of(plane_strain, s.gradient);
-          s.energy = energy_of(s.stress, s.gradient);
-        });
-        EXPECT_NEAR(j_integral(samples, weight, {})[0], field.release, 0.015 * field.release) << part;
-      }
+      for (const double degrees : {0., 20., 45.}) f(part * rayleigh, Vec<2>{{x, 0.2}}, degrees * std::numbers::pi / 180);
     }
   }
+}
+
+TEST(JIntegral, OfARunningTipIsItsEnergyRelease) {
+  for_running_tips([](double speed, const Vec<2>& offset, double angle) {
+    const auto samples = running_field(speed, offset, angle);
+    const double G = RunningTip(speed).release;
+    EXPECT_NEAR(j_integral(samples, weight, {})[0], G, 0.015 * G) << speed;
+    EXPECT_NEAR(along_circle(samples)[0], G, 0.015 * G) << speed;
+  });
+}
+
+// J is within .015 of G, and K_I goes with its square root; what comes out as sliding takes away by its square.
+TEST(Interaction, OfARunningTip) {
+  double worst = 0, least_at_rest = 1;
+  for_running_tips([&](double speed, const Vec<2>& offset, double angle) {
+    const auto samples = running_field(speed, offset, angle);
+    const SteadyTip tip(plane_strain, rho, speed);
+    const double J = j_integral(samples, weight, {})[0];
+    const StressIntensity proportion = interaction_integral(samples, weight, straight, tip, {}), K = share(J, proportion, tip);
+    EXPECT_NEAR(K.I, 1, 0.02) << speed;
+    EXPECT_NEAR(K.II, 0, 0.02) << speed;
+    EXPECT_NEAR(proportion.I, 1, 0.03) << speed << ": by the interaction integral alone";
+    worst = std::fmax(worst, std::fabs(K.I - 1));
+    // Taken as at rest, it is off by the root of A_I.
+    if (speed > 0.5 * rayleigh) least_at_rest = std::fmin(least_at_rest, share(J, {1, 0}, plane_strain).I - 1);
+  });
+  EXPECT_GT(least_at_rest, 0.14) << "A_I is 1.34 at .6 of the speed of Rayleigh waves: the test would see it";
+  RecordProperty("worst", std::to_string(worst));
+}
+
+// Both modes: the field is that of the library, whose own test stands below.
+TEST(Interaction, TellsOpeningFromSlidingOfARunningTip) {
+  double worst = 0;
+  for (const PlaneElasticity& elastic : {plane_strain, plane_stress}) {
+    for_running_tips([&](double speed, const Vec<2>& offset, double angle) {
+      const SteadyTip tip(elastic, rho, speed);
+      for (const StressIntensity K : {StressIntensity{0, 1}, StressIntensity{1, -0.5}, StressIntensity{0.5, 1}}) {
+        const auto samples = lattice(offset, angle, [&](TipSample& s) {
+          const TipField f = tip.field(K, norm(s.place), std::atan2(s.place[1], s.place[0]));
+          s.gradient = f.gradient, s.stress = f.stress;
+          s.energy = energy_of(s.stress, s.gradient);
+          s.velocity = Vec<2>{{f.gradient[0][0], f.gradient[1][0]}} * -speed;
+          s.inertia = f.second * (speed * speed);
+          for (std::size_t i = 0; i < 2; ++i) s.rate[i][0] = -speed * f.second[i];  // J_1 asks for no other part of it
+        });
+        const double G = (tip.release().I * K.I * K.I + tip.release().II * K.II * K.II) / elastic.modulus;
+        const double J = j_integral(samples, weight, {})[0];
+        EXPECT_NEAR(J, G, 0.015 * G);
+        const StressIntensity found = share(J, interaction_integral(samples, weight, straight, tip, {}), tip);
+        EXPECT_NEAR(found.I, K.I, 0.02);
+        EXPECT_NEAR(found.II, K.II, 0.02);
+        worst = std::fmax(worst, std::hypot(found.I - K.I, found.II - K.II));
+      }
+    });
+  }
+  RecordProperty("worst", std::to_string(worst));
+}
+
+TEST(SteadyTip, HasAFieldThatMovesAsItsMaterialAsks) {
+  for (const PlaneElasticity& elastic : {plane_strain, plane_stress}) {
+    for (const double part : {0.05, 0.3, 0.6, 0.8}) {
+      const double speed = part * rayleigh;
+      const SteadyTip tip(elastic, rho, speed);
+      ASSERT_TRUE(tip.is_slow());
+      for (const StressIntensity K : {StressIntensity{1, 0}, StressIntensity{0, 1}, StressIntensity{2, -3}}) {
+        const double r = 0.7, size = norm(Vec<2>{{K.I, K.II}}), h = 1e-4 * r;
+        const auto at = [&](const Vec<2>& x) { return tip.field(K, norm(x), std::atan2(x[1], x[0])); };
+        for (double theta = -3; theta <= 3; theta += 0.5) {
+          const Vec<2> x = Vec<2>{{std::cos(theta), std::sin(theta)}} * r, e1{{h, 0}}, e2{{0, h}};
+          const TipField f = at(x), east = at(x + e1), west = at(x - e1), north = at(x + e2), south = at(x - e2);
+          const Tensor2 stress = stress_of(elastic, f.gradient);
+          for (std::size_t i = 0; i < 2; ++i) {
+            EXPECT_LT(norm(stress[i] - f.stress[i]), 1e-14 * 10 * size);
+            const double force = (east.stress[i][0] - west.stress[i][0] + north.stress[i][1] - south.stress[i][1]) / (2 * h);
+            const double strain = size / mu;
+            EXPECT_NEAR(force, rho * speed * speed * f.second[i], 1e-6 * size) << "differences over h are off by h^2";
+            EXPECT_NEAR((east.gradient[i][0] - west.gradient[i][0]) / (2 * h), f.second[i], 1e-6 * strain);
+            EXPECT_NEAR((east.gradient[i][1] - west.gradient[i][1]) / (2 * h), (north.gradient[i][0] - south.gradient[i][0]) / (2 * h),
+                        1e-6 * strain);
+          }
+        }
+        for (const double face : {-std::numbers::pi, std::numbers::pi}) {
+          const TipField f = tip.field(K, r, face);
+          EXPECT_NEAR(f.stress[1][1], 0, 1e-12 * size) << "two waves cancel that are 1/(v/c_s)^2 times as large";
+          EXPECT_NEAR(f.stress[0][1], 0, 1e-12 * size);
+        }
+        const TipField ahead = tip.field(K, r, 0);
+        EXPECT_NEAR(ahead.stress[1][1], K.I / std::sqrt(2 * std::numbers::pi * r), 1e-12 * size);
+        EXPECT_NEAR(ahead.stress[0][1], K.II / std::sqrt(2 * std::numbers::pi * r), 1e-12 * size);
+      }
+    }
+    // Slowly it is Williams' field: speed enters by its square, here 1e-6 of that of shear waves.
+    const SteadyTip slow(elastic, rho, 1e-3 * std::sqrt(mu / rho));
+    const TipField f = slow.field({2, -3}, 0.7, 1), rest = tip_field(elastic, {2, -3}, 0.7, 1);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(norm(f.stress[i] - rest.stress[i]), 1e-5);
+  }
+}
+
+TEST(SteadyTip, ReleasesWhatFreundSays) {
+  for (const double part : {0.1, 0.3, 0.6, 0.8, 0.95}) {
+    const double speed = part * rayleigh, cs = std::sqrt(mu / rho), cd = cs * std::sqrt(2 * (1 - nu) / (1 - 2 * nu));
+    const double d = std::sqrt(1 - speed * speed / (cd * cd)), s = std::sqrt(1 - speed * speed / (cs * cs));
+    const double common = speed * speed / ((1 - nu) * cs * cs * (4 * d * s - (1 + s * s) * (1 + s * s)));
+    const StressIntensity A = SteadyTip(plane_strain, rho, speed).release();
+    EXPECT_NEAR(A.I, d * common, 1e-9 * A.I);
+    EXPECT_NEAR(A.II, s * common, 1e-9 * A.II);
+  }
+  const StressIntensity slow = SteadyTip(plane_stress, rho, 1e-6 * rayleigh).release();
+  EXPECT_NEAR(slow.I, 1, 1e-9);
+  EXPECT_NEAR(slow.II, 1, 1e-9);
+  EXPECT_TRUE(SteadyTip(plane_strain, rho, 0.9270 * std::sqrt(mu / rho)).is_slow());
+  EXPECT_FALSE(SteadyTip(plane_strain, rho, 0.9278 * std::sqrt(mu / rho)).is_slow());
+  EXPECT_FALSE(SteadyTip(plane_strain, rho, 1.5 * std::sqrt(mu / rho)).is_slow());
 }
 
 TEST(Shares, OfJ) {
@@ -273,6 +414,15 @@ TEST(Shares, OfJ) {
   const StressIntensity by_opening = partition_by_opening(J, {{-0.4e-6, 0.3e-6}}, plane_strain);
   EXPECT_NEAR(by_opening.I, K.I, 1e-9 * K.I);
   EXPECT_NEAR(by_opening.II, K.II, 1e-9 * K.I);
+  // Of a tip that runs: by its field, a turn before and behind the crack.
+  const SteadyTip running(plane_strain, rho, 0.6 * rayleigh);
+  const double G = (running.release().I * 9e12 + running.release().II * 16e12) / plane_strain.modulus;
+  const double half = std::numbers::pi;  // the opening of a field grows with the root of r: what it is follows from its gradient
+  Vec<2> behind{};
+  for (std::size_t i = 0; i < 2; ++i) behind[i] = running.field(K, 1, -half).gradient[i][0] - running.field(K, 1, half).gradient[i][0];
+  const StressIntensity running_K = partition_by_opening(G, behind, running);
+  EXPECT_NEAR(running_K.I, K.I, 1e-9 * K.I);
+  EXPECT_NEAR(running_K.II, K.II, 1e-9 * K.I);
   // Closed: only sliding.
   EXPECT_EQ(partition_by_opening(J, {{1e-6, -1e-6}}, plane_strain).I, 0);
   EXPECT_NEAR(partition_by_opening(J, {{1e-6, -1e-6}}, plane_strain).II, 5e6, 1e-3);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "crampon/crack/tip_field.hpp"
 #include "run_case.hpp"
 
 namespace crampon::test {
@@ -367,6 +368,69 @@ TEST(FractureParameters, DoNotChangeWhatIsComputedNorDependOnThreads) {
     EXPECT_GT(std::fabs(value(*a, column)), 0) << column;
 }
 
+// Two sums over one field.
+TEST(FractureParameters, AlongACircleAreThoseOverTheDisk) {
+  Plate p;
+  p.wide = p.high = 2;
+  const auto disk = make(text_of(p));
+  p.more = "form = \"contour\"";
+  const auto circle = make(text_of(p));
+  run(*disk), run(*circle);
+  for (const char* tip : {"c.start", "c.end"}) {
+    const Found a = at_end(*disk, tip), b = at_end(*circle, tip);
+    EXPECT_NEAR(b.J / a.J, 1, 0.02) << "each is within 1 % on particles that bear Williams' field (j_integral_test)";
+    EXPECT_NEAR(b.K_I * b.K_I / b.J, a.K_I * a.K_I / a.J, 1e-9 * a.K_I * a.K_I / a.J) << "opening alone: J has the size of K";
+    RecordProperty(tip, std::to_string(b.J / a.J));
+  }
+}
+
+// Nothing but a pressure in the crack loads a beam that is parted along half of its length: no energy comes from afar, and what goes into the tip is what
+// the pressure does when the opening moves on with the tip: the pressure times the opening at the mouth.
+TEST(FractureParameters, OfAPressureInTheCrackComeFromIt) {
+  constexpr double p = 1e4, E_beam = 1e10, density = 1000, arm = 0.01, crack_length = 0.05;
+  const double lowest =
+      3.516 * std::sqrt(E_beam / density / 12) * arm / (crack_length * crack_length);  // rad/s, of an arm that is held at its end
+  const auto s = make(fmt::format(R"in(
+analysis = "plane_stress"
+[grid]
+origin = [-0.01, -0.03]
+size = [0.12, 0.06]
+cell = 2.5e-3
+[time]
+end = {}
+[method]
+shape_functions = "gimp"
+damping = {}
+[[material]]
+name = "m"
+law = "elastic_small_strain"
+E = {}
+nu = 0.3
+density = {}
+[[body]]
+name = "beam"
+material = "m"
+shape = {{ kind = "rectangle", low = [0, -{}], high = [0.1, {}] }}
+[[crack]]
+name = "c"
+points = [[-0.005, 0], [{}, 0]]
+traction = {{ law = "pressure", pressure = {} }}
+[fracture]
+)in",
+                                  3 * 2 * M_PI / lowest, lowest, E_beam, density, arm, arm, crack_length, p));
+  run(*s);
+  const double J = value(*s, "J.c.end"), work = p * value(*s, "opening_max.c");
+  EXPECT_NEAR(J, work, 0.03 * work) << "J in cells of a quarter of an arm is good to 2 %, the opening at the mouth to 1 %";
+  EXPECT_NEAR(value(*s, "J_far.c.end"), 0, 0.03 * work);
+  EXPECT_EQ(value(*s, "R.c.end"), J) << "a pressure dissipates nothing";
+  const double of_arms = 3 * p * p * std::pow(crack_length, 4) / (E_beam * arm * arm * arm);  // two slender arms that nothing but bends
+  EXPECT_GT(J, of_arms);
+  EXPECT_LT(J, 1.7 * of_arms) << "an arm turns at its root as if it were .6 to .7 of its height longer: (1 + .7/5)^4";
+  RecordProperty("J_over_work", std::to_string(J / work));
+  RecordProperty("J_far_over_work", std::to_string(value(*s, "J_far.c.end") / work));
+  RecordProperty("J_over_arms", std::to_string(J / of_arms));
+}
+
 // The turned problem has the same parameters: the grid's axes have changed places.
 TEST(FractureParameters, TurnWithTheProblem) {
   const auto a = make(small_plate(crack("a", 5, 9.5, 14, 11)));
@@ -475,7 +539,24 @@ TEST(Growth, KeepsItsSpeedAndStops) {
   const auto s = make(growing(
       p, fmt::format("criterion = {{ law = \"steady_state\", toughness = 1e-7, speed = {} }}, largest_growth = 0.4, ends = \"end\"", speed),
       1));
-  run(*s);
+  // Its mean speed is that of its leaps but for what checks are late: a step in the time of four leaps, one.
+  const double late = 0.0345;
+  run(*s, [&](Simulation& now) {
+    const std::size_t leaps = now.event_count();
+    const double mean = value(now, "tip_speed.c.end"), J = value(now, "J.c.end"), K = value(now, "K_I.c.end");
+    EXPECT_EQ(value(now, "tip_speed.c.start"), 0);
+    if (leaps == 0) {
+      EXPECT_EQ(mean, 0);
+    } else if (leaps > 4 && leaps < 8) {
+      EXPECT_NEAR(mean, speed, speed * late / (1 - late));
+      const PlaneElasticity plane_strain(E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu)));
+      const StressIntensity A = SteadyTip(plane_strain, 1, mean).release();
+      EXPECT_GT(A.I, 1.05);
+      const double K_II = value(now, "K_II.c.end");
+      EXPECT_NEAR((A.I * K * K + A.II * K_II * K_II) / plane_strain.modulus, J, 1e-9 * J);
+    }
+  });
+  EXPECT_EQ(value(*s, "tip_speed.c.end"), 0) << "arrested";
   ASSERT_GE(s->event_count(), 8u);
   for (std::size_t e = 0; e < s->event_count(); ++e) {
     EXPECT_EQ(said(*s, e, "end"), 1);
@@ -486,6 +567,25 @@ TEST(Growth, KeepsItsSpeedAndStops) {
   EXPECT_EQ(ends_of(*s), (std::vector<int>{arrested}));
   EXPECT_EQ(s->event_count(), 8u) << "half a cell at a time";
   EXPECT_NEAR(value(*s, "crack_length.c"), 2.4, 3e-3);
+}
+
+// A tip that outruns Rayleigh waves, here .574 m/s, has J but no K.
+TEST(Growth, FasterThanRayleighWavesHasNoIntensities) {
+  for (const double speed : {0.5, 0.65}) {
+    Plate p;
+    p.wide = p.high = 2;
+    const auto s = make(growing(
+        p,
+        fmt::format("criterion = {{ law = \"steady_state\", toughness = 1e-7, speed = {0} }}, largest_speed = {0}, ends = \"end\"", speed),
+        1));
+    while (s->event_count() < 6 && !s->finished()) s->step(s->end_time());
+    ASSERT_EQ(s->event_count(), 6u);
+    s->step(s->end_time());
+    EXPECT_TRUE(std::isfinite(value(*s, "J.c.end")));
+    EXPECT_EQ(std::isfinite(value(*s, "K_I.c.end")), speed < 0.574) << speed;
+    EXPECT_TRUE(std::isfinite(value(*s, "K_I.c.start")));
+    EXPECT_EQ(notes_of(*s).find("it is not slower than Rayleigh waves") == std::string::npos, speed < 0.574) << notes_of(*s);
+  }
 }
 
 // A crack that runs into another one ends there, and so does one that meets its own path.

@@ -23,6 +23,7 @@ struct CrackSideSample {
   std::size_t piece = 0;  ///< number of the piece, from the tip backwards
   Tensor2 stress{}, gradient{};
   double energy = 0;  ///< of stress work and motion, J/m3
+  Vec<2> momentum;    ///< per volume, kg/(m2 s)
 };
 
 /// J of a tip, in its frame, J/m2: what goes into the tip if it moves on along the first axis, or along the second. As a sum over particles

@@ -132,6 +132,8 @@ const Declaration<FractureInput>& fracture_declaration() {
           .choice("mixity", &FractureInput::mixity,
                   {{"interaction", FractureInput::Mixity::interaction}, {"opening", FractureInput::Mixity::opening}},
                   "how K_I and K_II are told apart: by the interaction integral, or by opening and sliding two cells behind the tip")
+          .choice("form", &FractureInput::form, {{"domain", FractureInput::Form::domain}, {"contour", FractureInput::Form::contour}},
+                  "how J is found: over the disk, or along a circle in the middle of the ring where it ends, for comparison")
           .check([](const FractureInput& in, Diagnostics& diagnostics) {
             if (in.inner_radius > 0.8 * in.outer_radius)
               diagnostics.add("inner_radius",

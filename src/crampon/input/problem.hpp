@@ -206,6 +206,8 @@ struct FractureInput : Located {
   std::optional<double> interval;             ///< between two looks, s; none: the time of a wave over the outer radius
   using Mixity = FractureModel::Mixity;
   Mixity mixity = Mixity::interaction;
+  using Form = FractureModel::Form;
+  Form form = Form::domain;
 };
 
 /// [[boundary]]: nodal velocity prescribed in a region.

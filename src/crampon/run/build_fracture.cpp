@@ -61,7 +61,7 @@ void build_fracture(const Problem& problem, std::size_t particles, Model<2>& mod
   FractureModel& fracture = model.fracture;
   fracture.on = true;
   fracture.inner = in.inner_radius, fracture.outer = in.outer_radius;
-  fracture.mixity = in.mixity;
+  fracture.mixity = in.mixity, fracture.form = in.form;
   double fastest = 0;
   for (const Material<2>& m : model.materials) fastest = std::fmax(fastest, m.law->wave_speed(model.stress_state));
   fracture.interval = in.interval.value_or(fracture.outer * model.grid.smallest_cell() / fastest);

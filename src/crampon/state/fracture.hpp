@@ -20,6 +20,7 @@ enum class NoParameter : std::uint8_t {
   load,         ///< ... to where a load or a prescribed velocity acts
   materials,    ///< several materials about the tip: J, but no K
   anisotropic,  ///< the law has no isotropic elasticity at small strain: J, but no K
+  fast,         ///< the tip is not slower than Rayleigh waves: J, but no K
 };
 
 /// What follows "there is no J" or "no K": why.
@@ -41,6 +42,8 @@ constexpr const char* reason(NoParameter why) {
       return "several materials meet there";
     case NoParameter::anisotropic:
       return "its material has no isotropic elasticity";
+    case NoParameter::fast:
+      return "it is not slower than Rayleigh waves";
   }
   return "";
 }
@@ -59,21 +62,29 @@ struct TipParameters {
   double J = std::numeric_limits<double>::quiet_NaN();         ///< of what goes into the tip itself, J/m2
   double J_far = std::numeric_limits<double>::quiet_NaN();     ///< of what comes from afar: tractions of the faces take the rest, J/m2
   double J_across = std::numeric_limits<double>::quiet_NaN();  ///< second component, J/m2
+  double R = std::numeric_limits<double>::quiet_NaN();         ///< J and what tractions have taken for good where they end, J/m2
   double K_I = std::numeric_limits<double>::quiet_NaN(), K_II = std::numeric_limits<double>::quiet_NaN();  ///< Pa sqrt(m)
+  /// Intensities at which a tip at rest would have this J, Pa sqrt(m): for criteria of growth, whose drive is an energy.
+  double rest_I = std::numeric_limits<double>::quiet_NaN(), rest_II = std::numeric_limits<double>::quiet_NaN();
   double phase = std::numeric_limits<double>::quiet_NaN();   ///< atan2(sliding, opening) behind the tip, rad
   double radius = std::numeric_limits<double>::quiet_NaN();  ///< of the domain, m
+  double speed = 0;                                          ///< over the last two cells of growth, m/s
   NoParameter no_J = NoParameter::none, no_K = NoParameter::none;
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [J, J_far, J_across, K_I, K_II, phase, radius, no_J, no_K] = self;
+    auto& [J, J_far, J_across, R, K_I, K_II, rest_I, rest_II, phase, radius, speed, no_J, no_K] = self;
     visit(Member{"J", "J/m2"}, J);
     visit(Member{"J_far", "J/m2"}, J_far);
     visit(Member{"J_across", "J/m2"}, J_across);
+    visit(Member{"R", "J/m2"}, R);
     visit(Member{"K_I", "Pa m^(1/2)"}, K_I);
     visit(Member{"K_II", "Pa m^(1/2)"}, K_II);
+    visit(Member{"rest_I", "Pa m^(1/2)"}, rest_I);
+    visit(Member{"rest_II", "Pa m^(1/2)"}, rest_II);
     visit(Member{"phase", "rad"}, phase);
     visit(Member{"radius", "m"}, radius);
+    visit(Member{"speed", "m/s"}, speed);
     visit(Member{"no_J"}, no_J);
     visit(Member{"no_K"}, no_K);
   }

@@ -134,13 +134,14 @@ std::vector<FaceTraction> take_tractions(const State<2>& state, const Model<2>& 
   const TipFrame frame = present_frame(model, crack, tip);
   const Vec<2> x = crack.original[vertices[0]];
   const auto traction_at = [&](std::size_t v) {
-    if (!(crack.traction.area[v] > 0)) return Vec<2>{};
     return frame.turned(crack.traction.force[v]) * (-vertices.sign() / crack.traction.area[v]);
   };
   for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
     const std::size_t near = vertices[k], far = vertices[k + 1];
     const double r = norm((crack.original[near] + crack.original[far]) * 0.5 - x);
     if (r >= radius) break;
+    // A law acts on pieces both ends of which bear it (areas_between()).
+    if (!(crack.traction.area[near] > 0 && crack.traction.area[far] > 0)) continue;
     FaceTraction f;
     f.weight = extension ? extension->on_path(r) : 1;
     f.traction = (traction_at(near) + traction_at(far)) * 0.5;
@@ -169,7 +170,7 @@ std::vector<FaceTraction> take_contact_tractions(const State<2>& state, const Mo
     const CrackSideSample &left = sides[s], &right = sides[s + 1];
     if (left.piece != right.piece) continue;  // the other side holds no material
     const std::size_t k = left.piece, near = vertices[k], far = vertices[k + 1];
-    if (bears_a_law(near) || bears_a_law(far)) continue;
+    if (bears_a_law(near) && bears_a_law(far)) continue;
     const Vec<2>& up = right.normal;
     FaceTraction f;
     const std::size_t from = clear + 1 < sides.size() ? std::max(s, clear) : s;
@@ -213,10 +214,12 @@ std::vector<CrackSideSample> take_sides(const std::vector<Vec<2>>& path, const s
         const double w = s.area * (1 - square) * (1 - square);
         weights += w;
         f.energy += w * (s.energy + 0.5 * s.density * dot(s.velocity, s.velocity));
+        f.momentum += s.velocity * (w * s.density);
         for (std::size_t i = 0; i < 2; ++i) f.stress[i] += s.stress[i] * w, f.gradient[i] += s.gradient[i] * w;
       }
       if (!(weights > 0)) continue;
       f.energy *= 1 / weights;
+      f.momentum *= 1 / weights;
       for (std::size_t i = 0; i < 2; ++i) f.stress[i] *= 1 / weights, f.gradient[i] *= 1 / weights;
       sides.push_back(f);
     }

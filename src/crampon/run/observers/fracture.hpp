@@ -11,6 +11,7 @@ template <int Dim>
 class FractureParameters final : public Observer<Dim> {
   struct Tip {
     const CrackTip& is;
+    bool bridged, grows;  ///< a traction law acts on its crack; the crack may grow
   };
   struct Length {
     double length = 0;  ///< m
@@ -31,6 +32,11 @@ class FractureParameters final : public Observer<Dim> {
         {{"J_across.NAME.END", "J/m2", "second component of J: what would go into the tip if it moved to the left",
           "docs/theory/fracture.md"},
          [](const Tip& t, int) { return t.is.now.J_across; }},
+        {{"R.NAME.END", "J/m2", "what it takes to let a crack whose faces tractions hold grow on; where its crack has a traction law",
+          "J, and what tractions have dissipated for each area where they end behind the tip"},
+         [](const Tip& t, int) { return t.is.now.R; },
+         Axes::none,
+         [](const Tip& t) { return t.bridged; }},
         {{"K_I.NAME.END", "Pa m^(1/2)", "intensity of opening", "docs/theory/fracture.md"}, [](const Tip& t, int) { return t.is.now.K_I; }},
         {{"K_II.NAME.END", "Pa m^(1/2)",
           "intensity of sliding; positive where the left side, seen along the crack towards the tip, moves ahead",
@@ -38,6 +44,11 @@ class FractureParameters final : public Observer<Dim> {
          [](const Tip& t, int) { return t.is.now.K_II; }},
         {{"phase.NAME.END", "rad", "sliding against opening, two cells behind the tip", "atan2(sliding, opening)"},
          [](const Tip& t, int) { return t.is.now.phase; }},
+        {{"tip_speed.NAME.END", "m/s", "mean speed of a tip that grows over about the last two cells; where its crack may grow",
+          "docs/theory/fracture.md, tips that run"},
+         [](const Tip& t, int) { return t.is.now.speed; },
+         Axes::none,
+         [](const Tip& t) { return t.grows; }},
     };
     return all;
   }
@@ -72,7 +83,8 @@ class FractureParameters final : public Observer<Dim> {
     if constexpr (Dim == 2) {
       if (!now.model.fracture.on) return;
       for (const CrackTip& tip : now.state.fracture.tips) {
-        cells.add<Dim>(tip_table(), Tip{tip}, now.state.cracks.list[tip.crack].name + (tip.end == 0 ? ".start" : ".end"));
+        cells.add<Dim>(tip_table(), Tip{tip, now.model.tractions[tip.crack].acts(), now.model.growth[tip.crack].acts()},
+                       now.state.cracks.list[tip.crack].name + (tip.end == 0 ? ".start" : ".end"));
       }
       for (const Crack<2>& crack : now.state.cracks.list) {
         Length l;

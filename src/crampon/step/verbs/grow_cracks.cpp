@@ -62,7 +62,7 @@ TipState state_of_tip(const State<2>& state, const Model<2>& model, const CrackT
   const GrowthModel& growth = model.growth[tip.crack];
   TipState out;
   out.J = tip.now.J;
-  out.K = {tip.now.K_I, tip.now.K_II};
+  out.K = {tip.now.rest_I, tip.now.rest_II};
   out.opening = opening_behind(model, state.cracks.list[tip.crack], tip);
   if (const auto elastic = model.materials[tip.material].law->elasticity())
     out.elastic = PlaneElasticity(elastic->plane_lambda(model.stress_state), elastic->mu);
@@ -120,8 +120,8 @@ std::optional<Growth> decide(const State<2>& state, const Model<2>& model, const
     if (criterion.needs_intensities() && !std::isfinite(now.K.I)) return std::nullopt;
     const double drive = criterion.drive(now) / resistance;
     if (!(drive >= 1)) return std::nullopt;
-    Growth g{angle_of(growth, criterion, now, tip, frame, state.cracks.list[tip.crack]), std::fmin(growth.largest_speed, criterion.speed(now)),
-             &criterion == &*growth.criterion};
+    Growth g{angle_of(growth, criterion, now, tip, frame, state.cracks.list[tip.crack]),
+             std::fmin(growth.largest_speed, criterion.speed(now)), &criterion == &*growth.criterion};
     if (growth.by_rate) g.speed = std::fmin(g.speed, growth.largest_speed * (1 - 1 / drive));
     if (!(g.speed > 1e-6 * growth.largest_speed)) return std::nullopt;
     return g;
