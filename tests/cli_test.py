@@ -59,6 +59,48 @@ point = [0, 2.9]
 normal = [0, 1]
 """
 
+NOTCHED = """
+title = "notched plate"
+[grid]
+origin = [0, 0]
+size = [24, 28]
+cell = 1
+[time]
+steps = 40
+[[material]]
+name = "soft"
+law = "elastic_small_strain"
+E = 100
+nu = 0.3
+density = 1
+[[body]]
+name = "plate"
+material = "soft"
+shape = { kind = "rectangle", low = [2, 2], high = [22, 26] }
+initial_stress = { kind = "components", xx = 0, yy = 1, xy = 0 }
+[[load]]
+name = "top"
+kind = "traction"
+face = "y+"
+value = [0, 1]
+[[load]]
+name = "bottom"
+kind = "traction"
+face = "y-"
+value = [0, -1]
+[[crack]]
+name = "notch"
+points = [[0, 16], [8, 16]]
+growth = { criterion = { law = "critical_j", toughness = 0.02 }, direction = "straight" }
+[[crack]]
+name = "left-most flaw"
+points = [[13, 10], [18, 10]]
+[fracture]
+[output]
+every_steps = 10
+history_steps = 1
+"""
+
 
 class CliTest(unittest.TestCase):
     def setUp(self):
@@ -354,6 +396,42 @@ class CliTest(unittest.TestCase):
         resolved = self.folder / "flat.results/input.resolved.toml"
         resolved.write_text("future = true\n" + resolved.read_text())
         self.assertIn("walls and the shapes of rigid bodies are not drawn", self.call("draw", "flat.results")[1])
+
+    def test_tips_of_cracks(self):
+        (self.folder / "notched.toml").write_text(NOTCHED)
+        self.assertIn('end of "notch", start of "left-most flaw", end of "left-most flaw"', self.call("validate", "notched.toml")[0])
+        self.call("run", "notched.toml", "-q")
+        out, _ = self.call("info", "notched.results")
+        table = out[out.index("tips of cracks at t = "):].splitlines()
+        for word in ("crack", "end", "x [m]", "grown [m]", "status", "J [J/m2]", "K_II [Pa m^(1/2)]"):
+            self.assertIn(word, table[1])
+        self.assertEqual(len(table), 5)
+        notch = table[2].split()
+        self.assertEqual((notch[0], notch[1], notch[5]), ("notch", "end", "grows"))
+        # The tip began at x = 8 m and runs straight on; strain of a hundredth moves it less than a tenth.
+        self.assertAlmostEqual(float(notch[2]), 8 + float(notch[4]), delta=0.1)
+        self.assertGreater(float(notch[4]), 0)
+        self.assertGreater(float(notch[6]), 0)
+        self.assertRegex(table[3], r"^    left-most flaw  start .* 0  waits ")
+        # The small block has no crack, and the notch without [fracture] no tips that are known.
+        self.call("run", "small.toml", "-q")
+        self.assertNotIn("tips", self.call("info", "small.results")[0])
+        (self.folder / "plain.toml").write_text(NOTCHED.replace("[fracture]", "").replace("growth", "# growth"))
+        self.call("run", "plain.toml", "-q", "--steps", "2")
+        self.assertNotIn("tips", self.call("info", "plain.results")[0])
+        self.assertIn("tell of no tips", self.call("draw", "plain.results", "--tip-names", code=2)[1])
+        for arguments in (("--tip-names", "--magnify", "5"), ("--all", "--tip-names"), ("--panel", "1x2"), ("--history", "J", "K_I", "crack_length"),
+                          ("--history", "J", "--against", "crack_length"), ("--history", "J.notch.end", "--against", "grown.notch.end"),
+                          ("--history", "sum [J/m2] = J.notch.end + J.left-most flaw.end"), ("--history", "J", "--compare", "notched.results")):
+            out, err = self.call("draw", "notched.results", *arguments)
+            self.assertEqual(err, "", arguments)
+            self.assertTrue(out.endswith(".png\n"))
+        for arguments, words in ((("--history", "J.noch.end"), 'did you mean "J.notch.end"'), (("--history", "a = 2*J.noch.end"), 'did you mean "J.notch.end"'),
+                                 (("--history", "J.end"), "choose from: J.notch.end, J.left-most flaw.start, J.left-most flaw.end"),
+                                 (("--history", "crack_lenght"), 'did you mean "crack_length"'),
+                                 (("--history", "total_energy", "--against", "crack_length"), "belongs to none of crack_length.notch"),
+                                 (("--history", "J", "--tip-names"), "--tip-names has no effect on a plot of histories")):
+            self.assertIn(words, self.call("draw", "notched.results", *arguments, code=2)[1], arguments)
 
     def test_draw_says_what_is_wrong(self):
         self.call("run", "small.toml", "-q")

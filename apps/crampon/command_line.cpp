@@ -128,13 +128,17 @@ int run_command_line(int argc, const char* const* argv) {
   sub->add_option("--palette", draw.palette, "uniform, grey or diverging; left out: chosen by the quantity")
       ->type_name("NAME")
       ->check(CLI::IsMember({"uniform", "grey", "diverging"}));
+  sub->add_flag("--tip-names", draw.tip_names, "write the names of the tips of cracks beside their marks");
   sub->add_flag("--fringes", draw.fringes, "photoelastic fringes (N03 Eq. 23), in grey");
   sub->add_option("--fringe-constant", draw.fringe_constant, "k_f of the fringes, 1/MPa; left out: 0.0889")->type_name("K");
-  CLI::Option* history = sub->add_option("--history", draw.history,
-                                         "plot columns of history.csv over time instead, or \"name [unit] = formula of columns\", in SI")
-                             ->type_name("COLUMN")
-                             ->expected(1, -1);
-  sub->add_option("--against", draw.against, "with --history: this column, or formula, along the horizontal axis")
+  CLI::Option* history =
+      sub->add_option("--history", draw.history,
+                      "plot columns of history.csv over time instead, or \"name [unit] = formula of columns\", in SI; J stands "
+                      "for the column J of every tip, and so with all names that have a dot")
+          ->type_name("COLUMN")
+          ->expected(1, -1);
+  sub->add_option("--against", draw.against,
+                  "with --history: this column, or formula, along the horizontal axis; crack_length: of each curve that of its crack")
       ->type_name("COLUMN")
       ->needs(history);
   CLI::Option* profile =
@@ -160,6 +164,9 @@ int run_command_line(int argc, const char* const* argv) {
       "Examples:\n  crampon draw crack.results --quantity stress_yy --magnify 20 --time \"15 us\"\n"
       "  crampon draw disks.results --panel 2x2 --quantity velocity\n"
       "  crampon draw disks.results --history kinetic_energy strain_energy -o energy.png\n"
+      "  crampon draw crack.results --magnify 30 --tip-names\n"
+      "  crampon draw crack.results --history J K_I K_II crack_length\n"
+      "  crampon draw crack.results --history J --against crack_length\n"
       "  crampon draw dcb.results --history reaction_y.top --against \"opening [m] = 0.2*time\"\n"
       "  crampon draw hertz.results --profile x --quantity stress_yy --over \"Hertz = -6e7*sqrt(max(0, 1 - (x/1.1e-3)^2))\"");
 

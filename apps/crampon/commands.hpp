@@ -68,6 +68,7 @@ struct DrawArguments {
   std::vector<std::string> window;  ///< four values
   std::string palette;              ///< empty: chosen by the quantity
   bool symmetric = false;
+  bool tip_names = false;
   bool fringes = false;
   std::optional<double> fringe_constant;  ///< 1/MPa
   std::vector<std::string> history;       ///< columns, or "name [unit] = formula of columns"

@@ -52,6 +52,7 @@ void check_options(const DrawArguments& arguments) {
       {"--magnify", arguments.magnify != 1, picture, of_pictures},
       {"--range", !arguments.range.empty(), picture, "the ends of the axes are set by --window"},
       {"--symmetric", arguments.symmetric, picture, of_pictures},
+      {"--tip-names", arguments.tip_names, picture, of_pictures},
       {"--palette", !arguments.palette.empty(), picture, of_pictures},
       {"--fringes", arguments.fringes, !history, of_particles},
       {"--fringe-constant", arguments.fringe_constant.has_value(), !history && coloured_by(arguments) == "fringes",

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "crampon/output/crack_tips.hpp"
 #include "crampon/output/results_folder.hpp"
 #include "crampon/output/run_record.hpp"
 #include "crampon/picture/draw.hpp"
@@ -43,6 +44,7 @@ DrawOptions picture_options(const DrawArguments& arguments, const std::string& t
   options.window = window_of(arguments, "m", "m");
   options.magnification = arguments.magnify;
   options.fringe_constant = arguments.fringe_constant.value_or(paper_fringe_constant);
+  options.tip_names = arguments.tip_names;
   options.title = title;
   options.width = arguments.width;
   if (!arguments.panel.empty()) options.columns = panel_grid(arguments.panel).columns;
@@ -116,6 +118,9 @@ void draw_pictures(const DrawArguments& arguments, const ResultsFolder& folder, 
   options.grid = grid_window(moments.problem());
   options.category_names = category_names(moments, first.particles, options.quantity);
   tell_what_is_not_drawn(moments, first);
+  if (arguments.tip_names && (!first.cracks || tips_of(*first.cracks).empty()))
+    throw UsageError(
+        "--tip-names: these results tell of no tips; they do where the input has [fracture] and an end of a crack lies in a body");
 
   if (!arguments.panel.empty()) {
     std::deque<Moment> in_memory;

@@ -35,11 +35,13 @@ std::vector<bool> Moment::of_rigid_bodies() const {
 }
 
 Moments::Moments(const ResultsFolder& folder)
-    : folder_(folder), frames_(folder.particle_frames()), cracks_(folder.crack_frames()), problem_(read_input(folder)) {}
+    : folder_(folder), frames_(folder.particle_frames()), cracks_(folder.crack_frames()), problem_(read_input(folder)) {
+  if (!cracks_.empty()) start_ = folder.read_cracks(cracks_.front());
+}
 
 Moment Moments::read(std::size_t frame) const {
   const PvdEntry& entry = frames_[frame];
-  Moment moment{folder_.read_particles(entry), std::nullopt, {}};
+  Moment moment{folder_.read_particles(entry), std::nullopt, {}, start_ ? &*start_ : nullptr};
   const auto found = std::find_if(cracks_.begin(), cracks_.end(), [&entry](const PvdEntry& c) { return c.time == entry.time; });
   if (found != cracks_.end()) moment.cracks = folder_.read_cracks(*found);
   if (problem_) moment.rigid = rigid_shapes(*problem_, moment.particles);

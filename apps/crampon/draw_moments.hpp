@@ -16,7 +16,8 @@ struct Moment {
   PointFrame particles;
   std::optional<CrackFrame> cracks;
   std::vector<RigidShape> rigid;
-  Snapshot snapshot() const { return {&particles, cracks ? &*cracks : nullptr, rigid}; }
+  const CrackFrame* start = nullptr;  ///< cracks at the start, of the Moments that read this; null: there are none
+  Snapshot snapshot() const { return {&particles, cracks ? &*cracks : nullptr, rigid, start}; }
   /// Per particle: is it one of a rigid body?
   std::vector<bool> of_rigid_bodies() const;
 };
@@ -34,6 +35,7 @@ class Moments {
  private:
   const ResultsFolder& folder_;
   std::vector<PvdEntry> frames_, cracks_;
+  std::optional<CrackFrame> start_;
   std::optional<Problem> problem_;
 };
 

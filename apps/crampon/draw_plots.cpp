@@ -46,11 +46,26 @@ NamedFormula named_formula(const std::string& text, const char* option) {
   return parts;
 }
 
-/// The column that an option names, added to the history where it is a formula.
-std::string column_of(History& history, const std::string& text, const char* option) {
+/// The columns that an option names: one, all of a quantity, or a new one where it is a formula.
+std::vector<std::string> columns_of(History& history, const std::string& text, const char* option) {
   const NamedFormula parts = named_formula(text, option);
-  if (!parts.formula.empty()) history.add_column({parts.name, parts.unit}, parts.formula);
-  return parts.name;
+  if (parts.formula.empty()) return history.columns_of(parts.name);
+  history.add_column({parts.name, parts.unit}, parts.formula);
+  return {parts.name};
+}
+
+/// Of the columns that --against names, the one for a column: of several, that of the same thing, as "crack_length.notch" for "J.notch.end".
+std::string abscissa_of(const std::string& column, const std::vector<std::string>& against) {
+  if (against.size() <= 1) return against.empty() ? "" : against[0];
+  const auto thing = [](const std::string& name) { return name.find('.') == std::string::npos ? "" : name.substr(name.find('.')) + "."; };
+  std::string found;
+  for (const std::string& along : against) {
+    if (thing(along) == thing(column)) return along;
+    if (thing(column).starts_with(thing(along))) found = along;
+  }
+  if (found.empty())
+    throw UsageError(fmt::format("--against: \"{}\" belongs to none of {}; name one of them", column, fmt::join(against, ", ")));
+  return found;
 }
 
 PlotOptions plot_options(const DrawArguments& arguments, const std::string& title) {
@@ -78,12 +93,14 @@ void draw_history(const DrawArguments& arguments, const ResultsFolder& folder, c
   for (const fs::path& path : folders) histories.push_back(read_history(ResultsFolder::open(path).history()));
   std::vector<HistoryCurve> curves;
   for (std::size_t i = 0; i < folders.size(); ++i) {
-    const std::string along = arguments.against.empty() ? "" : column_of(histories[i], arguments.against, "--against");
-    for (const std::string& text : arguments.history) {
-      const std::string column = column_of(histories[i], text, "--history");
-      const std::string run = (folders[i].has_filename() ? folders[i] : folders[i].parent_path()).stem().string();
-      const std::string label = folders.size() == 1 ? "" : arguments.history.size() == 1 ? run : run + ", " + column;
-      curves.push_back({&histories[i], column, label, along});
+    std::vector<std::string> against, columns;
+    if (!arguments.against.empty()) against = columns_of(histories[i], arguments.against, "--against");
+    for (const std::string& text : arguments.history)
+      for (std::string& column : columns_of(histories[i], text, "--history")) columns.push_back(std::move(column));
+    const std::string run = (folders[i].has_filename() ? folders[i] : folders[i].parent_path()).stem().string();
+    for (const std::string& column : columns) {
+      const std::string label = folders.size() == 1 ? "" : columns.size() == 1 ? run : run + ", " + column;
+      curves.push_back({&histories[i], column, label, abscissa_of(column, against)});
     }
   }
   const std::string x_unit = curves[0].over.empty() ? "s" : histories[0].unit(curves[0].over);

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "crampon/output/crack_tips.hpp"
 #include "crampon/output/history.hpp"
 #include "crampon/output/quantity.hpp"
 #include "crampon/output/results_folder.hpp"
@@ -49,6 +51,30 @@ void print_record(const RunRecord& record) {
   }
 }
 
+/// The tips of cracks in a frame, SI.
+void print_tips(const CrackFrame& frame) {
+  const std::vector<FrameTip> tips = tips_of(frame);
+  if (tips.empty()) return;
+  std::size_t widest = 5;
+  for (const FrameTip& tip : tips) widest = std::max(widest, frame.names[tip.crack].size());
+  const auto row = [&](const auto& crack, const auto& end, const auto& x, const auto& y, const auto& grown, const auto& status,
+                       const auto& J, const auto& K_I, const auto& K_II) {
+    fmt::print("    {:<{}}  {:<5}  {:>11}  {:>11}  {:>10}  {:<8}  {:>10}  {:>16}  {:>17}\n", crack, widest, end, x, y, grown, status, J,
+               K_I, K_II);
+  };
+  fmt::print("\n  tips of cracks at t = {:.6g} s\n", frame.time);
+  row("crack", "end", "x [m]", "y [m]", "grown [m]", "status", "J [J/m2]", "K_I [Pa m^(1/2)]", "K_II [Pa m^(1/2)]");
+  for (const FrameTip& tip : tips) {
+    const auto number = [&](const char* quantity) {
+      const double value = value_at(frame, quantity, tip.vertex);
+      return std::isnan(value) ? std::string("-") : fmt::format("{:.4g}", value);
+    };
+    row(frame.names[tip.crack], tip.end(), fmt::format("{:.6g}", frame.plane[3 * tip.vertex]),
+        fmt::format("{:.6g}", frame.plane[3 * tip.vertex + 1]), number("grown"),
+        tip_status_words[static_cast<std::size_t>(tip.status)].word, number("J"), number("K_I"), number("K_II"));
+  }
+}
+
 }  // namespace
 
 int info_command(const InfoArguments& arguments) {
@@ -64,13 +90,15 @@ int info_command(const InfoArguments& arguments) {
   fmt::print("\n");
   const std::vector<PvdEntry> frames = folder.particle_frames();
   print_frames("particles.pvd", frames);
-  print_frames("cracks.pvd", folder.crack_frames());
+  const std::vector<PvdEntry> cracks = folder.crack_frames();
+  print_frames("cracks.pvd", cracks);
   print_frames("grid.pvd", folder.grid_frames());
   if (!frames.empty()) line("quantities", fmt::format("{}", fmt::join(quantity_names(folder.read_particles(frames.back())), ", ")));
   const History history = read_history(folder.history());
   std::vector<std::string> columns;
   for (const HistoryColumn& column : history.columns) columns.push_back(fmt::format("{}[{}]", column.name, column.unit));
   line("history.csv", fmt::format("{} rows: {}", history.rows(), fmt::join(columns, ", ")));
+  if (!cracks.empty()) print_tips(folder.read_cracks(cracks.back()));
   return exit_ok;
 }
 

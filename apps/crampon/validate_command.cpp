@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "crampon/input/read_problem.hpp"
+#include "crampon/output/crack_tips.hpp"
 #include "crampon/run/estimate.hpp"
 #include "crampon/run/run_problem.hpp"
 #include "terminal.hpp"
@@ -24,6 +25,14 @@ std::string damping_advice(const Problem& problem) {
       critical_damping(swing->along), swing->body, bending);
 }
 
+/// Which ends of cracks are tips.
+std::string tips_text(const CrackFrame& cracks) {
+  std::string text;
+  for (const FrameTip& tip : tips_of(cracks))
+    text += fmt::format("{}{} of \"{}\"", text.empty() ? "" : ", ", tip.end(), cracks.names[tip.crack]);
+  return text.empty() ? "none: no end of a crack lies in a body" : text;
+}
+
 }  // namespace
 
 int validate_command(const ValidateArguments& arguments) {
@@ -42,6 +51,7 @@ int validate_command(const ValidateArguments& arguments) {
                             count_text(static_cast<double>(size.active_cells))));
   for (const LoadSummary& load : simulation->loads()) line("load", load_text(load));
   if (size.cracks > 0) line("cracks", fmt::format("{} with {} segments", size.cracks, size.crack_segments));
+  if (problem.fracture) line("tips", tips_text(simulation->cracks()));
   line("steps", count_text(static_cast<double>(size.steps)));
   line("time step", fmt::format("{:.6g} s", size.time_step));
   line("end time", fmt::format("{:.6g} s", end_time));

@@ -389,6 +389,94 @@ TEST_F(Output, PicturesOfASeriesShareWindowAndRange) {
   EXPECT_NEAR(grid.panels[0].x_lowest, 0, 1e-12);
 }
 
+// A path of vertices one apart along y = up, whose number `first` and those after it up to `last` lay there at the start.
+CrackFrame crack_along(double up, int vertices, int first, int last, CrackFrame& start) {
+  CrackFrame c;
+  c.names = start.names = {"notch"};
+  c.fields = {{"tip_status", "1", 1, {}}};
+  for (int v = 0; v < vertices; ++v) {
+    const bool is_old = v >= first && v <= last;
+    for (auto* points : {&c.plane, &c.upper, &c.lower, &c.original}) points->insert(points->end(), {1. + v, up, 0.});
+    if (is_old) start.plane.insert(start.plane.end(), {1. + v, up, 0.});
+    c.fields[0].values.push_back(std::nan(""));
+  }
+  start.original = start.plane;
+  c.begin = {0, vertices};
+  start.begin = {0, last + 1 - first};
+  return c;
+}
+
+TEST_F(Output, CracksShowWhatHasGrownAndTheirTips) {
+  const PointFrame frame = lattice({0, 0}, 12, 12, 1, 0, 1);
+  CrackFrame start;
+  CrackFrame crack = crack_along(6.5, 9, 2, 5, start);  // from 1 to 9; 3 to 6 at the start
+  crack.fields[0].values.set(0, static_cast<double>(TipStatus::left));
+  crack.fields[0].values.set(8, static_cast<double>(TipStatus::grows));
+  const DrawOptions options{.quantity = "signal", .tip_names = true};
+  PictureMap map = draw_frame({&frame, &crack, {}, &start}, options, folder / "g.png");
+  expect_readable(map.texts, map.width, map.height, "crack with a tip");
+  for (const char* text : {"notch end", "crack", "grown", "tip"}) EXPECT_TRUE(shows(map.texts, text)) << text;
+  EXPECT_FALSE(shows(map.texts, "notch start")) << "that one has left the body";
+  const Pixels pixels(folder / "g.png");
+  const auto seen = [&](double x) {
+    const auto at = map.panels[0].pixel(x, 6.5);
+    return pixels.at(at[0], at[1]);
+  };
+  for (const double x : {1.5, 2.5, 6.5, 8.2}) test::expect_colour(seen(x), grown_colour, fmt::format("grown, at {}", x));
+  for (const double x : {3.5, 5.5}) test::expect_colour(seen(x), {0, 0, 0}, fmt::format("there at the start, at {}", x));
+  test::expect_colour(seen(9), {1, 1, 1}, "the mark of a tip");
+  test::expect_colour(seen(1.1), grown_colour, "no mark where the tip has left");
+
+  // Without an earlier frame, or without growth, a crack is black.
+  map = draw_frame({&frame, &crack}, options, folder / "n.png");
+  const Pixels without(folder / "n.png");
+  const auto at = map.panels[0].pixel(8.2, 6.5);
+  test::expect_colour(without.at(at[0], at[1]), {0, 0, 0}, "no start to compare with");
+  EXPECT_FALSE(shows(map.texts, "grown"));
+  EXPECT_TRUE(shows(map.texts, "tip"));
+  // A crack that was not there at the start has grown as a whole.
+  start.names = {"another"};
+  map = draw_frame({&frame, &crack, {}, &start}, options, folder / "w.png");
+  const auto middle = map.panels[0].pixel(4.5, 6.5);
+  test::expect_colour(Pixels(folder / "w.png").at(middle[0], middle[1]), grown_colour, "new");
+  // Names are written where they are asked for, and cracks without tips need no key.
+  map = draw_frame({&frame, &crack}, {.quantity = "signal"}, folder / "o.png");
+  EXPECT_FALSE(shows(map.texts, "notch end"));
+  crack.fields.clear();
+  map = draw_frame({&frame, &crack}, options, folder / "c.png");
+  EXPECT_FALSE(shows(map.texts, "tip") || shows(map.texts, "crack"));
+}
+
+TEST_F(Output, NamesOfManyTipsNeverCollide) {
+  PointFrame frame = lattice({0, 0}, 12, 12, 1, 0, 1);
+  CrackFrame many;
+  many.fields = {{"tip_status", "1", 1, {}}};
+  for (int k = 0; k < 12; ++k) {  // a star: all begin near the middle, some end at the edge
+    const double angle = 0.5 * k, x = std::cos(angle), y = std::sin(angle);
+    for (const double r : {0.3, 0.5 * (k + 1)}) many.plane.insert(many.plane.end(), {6 + r * x, 6 + r * y, 0.});
+    many.names.push_back(fmt::format("crack number {}", k));
+    many.begin.push_back(2 * (k + 1));
+    many.fields[0].values.push_back(static_cast<double>(TipStatus::waits));
+    many.fields[0].values.push_back(static_cast<double>(TipStatus::arrested));
+  }
+  many.upper = many.lower = many.original = many.plane;
+  for (const int width : {200, 500, 1200}) {
+    for (const std::size_t panels : {1u, 4u}) {
+      const DrawOptions options{.quantity = "signal", .tip_names = true, .title = "Many tips", .width = width, .max_height = 900};
+      const PictureMap map = draw_panel(std::vector<Snapshot>(panels, {&frame, &many}), options, folder / "m.png");
+      expect_readable(map.texts, map.width, map.height, fmt::format("{} panels, width {}", panels, width));
+      EXPECT_TRUE(shows(map.texts, "tip"));
+      for (const DrawnText& text : map.texts) {
+        if (!text.text.starts_with("crack number")) continue;
+        EXPECT_TRUE(std::any_of(map.panels.begin(), map.panels.end(), [&](const PictureMap::Panel& p) {
+          return text.box.left >= p.left && text.box.right() <= p.left + p.width && text.box.top >= p.top &&
+                 text.box.bottom() <= p.top + p.height;
+        })) << text.text;
+      }
+    }
+  }
+}
+
 TEST_F(Output, AxesOfPlotsNameTheirQuantity) {
   History history;
   history.columns = {{"time", "s"},           {"kinetic_energy", "J"}, {"strain_energy", "J"}, {"load_work", "J"},

@@ -335,9 +335,71 @@ TEST_F(Output, HistoryPlotOfFormulasOverAColumn) {
 
   EXPECT_TRUE(contains(message_of([&] { history.add_column({"work", "J"}, "1"); }), "another name"));
   const std::string message = message_of([&] { history.add_column({"other", "J"}, "work + tame"); });
-  EXPECT_TRUE(contains(message, "\"tame\"") && contains(message, "reaction_y.top")) << message;
+  EXPECT_TRUE(contains(message, "\"tame\"") && contains(message, "did you mean \"time\"")) << message;
   EXPECT_EQ(history.columns.size(), 5u);
   EXPECT_EQ(history.values.size(), 5u);
+
+  // A name that no formula can hold stands in one all the same, but as a whole.
+  history.values[2] = {1, 2, 3};
+  history.add_column({"twice", "m"}, "2*opening.left-most - time");
+  EXPECT_EQ(history.column("twice"), (std::vector<double>{2, 3, 4}));
+  EXPECT_TRUE(contains(message_of([&] { history.add_column({"other", "m"}, "opening.left-mosty"); }), "opening.left"));
+}
+
+History of_tips() {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  History h;
+  h.columns = {{"time", "s"},           {"J.a.start", "J/m2"},       {"J.a.end", "J/m2"},
+               {"J.b.end", "J/m2"},     {"K_I.a.end", "Pa m^(1/2)"}, {"K_II.a.end", "Pa m^(1/2)"},
+               {"crack_length.a", "m"}, {"crack_length.b", "m"}};
+  h.values = {{0, 1, 2, 3}, {1, 1, 1, 1}, {2, nan, 5, nan}, {3, 3, 3, 3}, {1, 2, 3, 4}, {0, 0, 0, 0}, {1, 1, 2, 3}, {7, 7, 7, 7}};
+  return h;
+}
+
+TEST_F(Output, ColumnsOfTipsArePlottedTogether) {
+  const History h = of_tips();
+  EXPECT_EQ(h.columns_of("J"), (std::vector<std::string>{"J.a.start", "J.a.end", "J.b.end"}));
+  EXPECT_EQ(h.columns_of("J.a.end"), (std::vector<std::string>{"J.a.end"}));
+  EXPECT_EQ(h.columns_of("crack_length").size(), 2u);
+  EXPECT_TRUE(contains(message_of([&] { h.columns_of("J.c.end"); }), "did you mean \"J.a.end\""));
+  EXPECT_TRUE(contains(message_of([&] { h.columns_of("J.of another"); }), "choose from: J.a.start, J.a.end, J.b.end"))
+      << "those of the quantity";
+  EXPECT_TRUE(contains(message_of([&] { h.columns_of("crack_lenght"); }), "did you mean \"crack_length\""));
+
+  const auto texts_of = [&](const std::vector<std::string>& columns) { return plot_history(h, columns, {}, folder / "p.png").texts; };
+  const auto shows = [](const std::vector<DrawnText>& texts, const char* wanted) {
+    return std::any_of(texts.begin(), texts.end(), [&](const DrawnText& t) { return t.text == wanted; });
+  };
+  std::vector<DrawnText> texts = texts_of({"J.a.end", "J.b.end", "K_I.a.end", "K_II.a.end", "crack_length.a"});
+  for (const char* text : {"J (J/m²)", "K (Pa √m)", "J, a end", "K_II, a end", "crack length, a"}) EXPECT_TRUE(shows(texts, text)) << text;
+  // In an area too low for its name the quantity stands for it, and the legend has the name.
+  texts = texts_of({"J.a.end", "K_I.a.end", "crack_length.a", "time"});
+  for (const char* text : {"K_I, a end", "crack length, a"}) EXPECT_TRUE(shows(texts, text)) << text;
+  // Each curve over a column of its own; the axis is named by what they have in common.
+  const PlotMap map = plot_history({{&h, "J.a.end", "", "crack_length.a"}, {&h, "J.b.end", "", "crack_length.b"}}, {}, folder / "o.png");
+  EXPECT_TRUE(shows(map.texts, "crack length (m)"));
+  EXPECT_THROW(plot_history({{&h, "J.a.end", "", "crack_length.a"}, {&h, "J.b.end", ""}}, {}, folder / "q.png"), std::invalid_argument);
+}
+
+TEST_F(Output, GapsOfCurvesAreGapsAndLoneValuesDots) {
+  const History h = of_tips();
+  const PlotMap map = plot_history(h, {"J.a.end"}, {}, folder / "p.png");
+  const Pixels pixels(folder / "p.png");
+  for (const auto& [time, value] : {std::pair{0., 2.}, {2., 5.}}) {
+    const auto at = map.areas[0].pixel(time, value);
+    expect_colour(pixels.at(at[0] + (time == 0 ? 1 : 0), at[1]), curve_colours()[0], "a lone value");
+  }
+  const auto between = map.areas[0].pixel(1.1, 3.6);
+  expect_colour(pixels.at(between[0], between[1]), white, "no line across the gap");
+}
+
+TEST(DisplayScale, UnitsAndNamesOfTips) {
+  EXPECT_EQ(quantity_text(1.2e6, 1.2e6, "Pa m^(1/2)"), "1.2 MPa √m");
+  EXPECT_EQ(spelt_out("K_II.notch.end"), "K_II, notch end");
+  EXPECT_EQ(spelt_out("crack_length.left_notch"), "crack length, left notch");
+  EXPECT_EQ(spelt_out("mid.velocity_x"), "mid, velocity x");
+  EXPECT_EQ(spelt_out("1.5 times the load"), "1.5 times the load");
+  EXPECT_EQ(spelt_out("cohesive_loss_II"), "cohesive loss II");
 }
 
 }  // namespace

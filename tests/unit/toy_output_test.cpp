@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crampon/run/crack_quantities.hpp"
 #include "crampon/run/observers/registry.hpp"
 #include "crampon/run/output_reference.hpp"
 #include "crampon/run/quantities.hpp"
@@ -152,6 +153,15 @@ TEST(OutputFamilies, HaveNamesOfTheirOwnAndWords) {
   }
   EXPECT_TRUE(columns.contains("toy_centre_AXIS"));
   EXPECT_EQ(make_observers<2>().size(), make_observers<3>().size());
+  std::set<std::string> of_cracks;
+  const std::string page = output_reference_page();
+  for (const CrackQuantity& q : crack_quantities()) {
+    EXPECT_TRUE(of_cracks.insert(q.name).second) << q.name << " stands twice";
+    EXPECT_FALSE(q.meaning.empty()) << q.name;
+    EXPECT_FALSE(q.unit.empty()) << q.name;
+    EXPECT_NE(page.find("| `" + q.name + "` |"), std::string::npos) << q.name << " is not on the reference page";
+  }
+  EXPECT_TRUE(of_cracks.contains("opening") && of_cracks.contains("K_II") && of_cracks.contains("tip_status"));
 }
 
 }  // namespace

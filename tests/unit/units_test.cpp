@@ -164,6 +164,9 @@ TEST(ValueFunctions, Expressions) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "Unexpected token \"foo\" found at position 4.");
+    const auto* unknown = dynamic_cast<const UnknownVariable*>(&error);
+    ASSERT_NE(unknown, nullptr);
+    EXPECT_EQ(unknown->name, "foo");
   }
 }
 

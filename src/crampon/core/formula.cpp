@@ -57,6 +57,8 @@ Formula::Formula(const std::string& expression, const std::vector<std::string>& 
     muparser.Eval(results);
     if (results != 1) throw std::invalid_argument("the expression has several values");
   } catch (const mu::ParserError& error) {
+    if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && is_formula_name(error.GetToken()))
+      throw UnknownVariable(error.GetMsg(), error.GetToken());
     throw std::invalid_argument(error.GetMsg());
   }
 }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -64,17 +65,60 @@ void HistoryWriter::write_line(const std::string& line) {
   }
 }
 
+namespace {
+
+/// "J" of "J.notch.end".
+std::string_view part_before_dot(std::string_view name) { return name.substr(0, name.find('.')); }
+
+/// That there is no such column, and which is meant or what there is: the columns of the same quantity where there are some.
+std::string no_column(const History& history, const std::string& name) {
+  std::vector<std::string> all, near, same_quantity;
+  for (const HistoryColumn& c : history.columns) {
+    const bool is_same = part_before_dot(c.name) == part_before_dot(name);
+    if (is_same) same_quantity.push_back(c.name);
+    if (!is_same && name.find('.') == std::string::npos) near.emplace_back(part_before_dot(c.name));
+    near.push_back(c.name);
+    all.push_back(c.name);
+  }
+  const auto closest = closest_name(name, near);
+  const std::string advice =
+      closest ? fmt::format("did you mean \"{}\"?", *closest) : suggest_from(name, same_quantity.empty() ? all : same_quantity);
+  return fmt::format("the history has no column \"{}\"; {}", name, advice);
+}
+
+/// Puts another word for a name where this stands by itself in a formula.
+void replace_word(std::string& formula, const std::string& name, const std::string& word) {
+  const auto goes_on = [&](std::size_t k) {
+    if (k >= formula.size()) return false;
+    const char c = formula[k];
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+  };
+  if (name.empty()) return;
+  for (std::size_t at = formula.find(name); at != std::string::npos; at = formula.find(name, at + 1)) {
+    if ((at > 0 && goes_on(at - 1)) || goes_on(at + name.size())) continue;
+    formula.replace(at, name.size(), word);
+  }
+}
+
+}  // namespace
+
 bool History::has_column(std::string_view name) const {
   return std::any_of(columns.begin(), columns.end(), [&](const HistoryColumn& c) { return c.name == name; });
 }
 
 std::size_t History::column_index(std::string_view name) const {
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
+  for (std::size_t k = 0; k < columns.size(); ++k)
     if (columns[k].name == name) return k;
-    names.push_back(columns[k].name);
-  }
-  throw std::out_of_range(fmt::format("the history has no column \"{}\"; {}", name, suggest_from(std::string(name), names)));
+  throw std::out_of_range(no_column(*this, std::string(name)));
+}
+
+std::vector<std::string> History::columns_of(const std::string& name) const {
+  if (has_column(name)) return {name};
+  std::vector<std::string> all;
+  for (const HistoryColumn& c : columns)
+    if (part_before_dot(c.name) == name) all.push_back(c.name);
+  if (all.empty()) throw std::out_of_range(no_column(*this, name));
+  return all;
 }
 
 namespace {
@@ -128,24 +172,30 @@ HistoryStatistics History::statistics(std::string_view name, double from, double
 void History::add_column(const HistoryColumn& column, const std::string& formula) {
   if (has_column(column.name))
     throw std::invalid_argument(fmt::format("the history has a column \"{}\"; give the new one another name", column.name));
-  std::vector<std::string> names;  // those that a formula can hold: a crack may be called "left-most"
-  std::vector<const std::vector<double>*> used;
+  // A crack may be called "left-most", which no formula can hold: its columns go by other words there, those of long names first.
+  std::vector<std::string> names;
+  std::vector<std::size_t> others;
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    if (!is_formula_name(columns[k].name)) continue;
-    names.push_back(columns[k].name);
-    used.push_back(&values[k]);
+    if (!is_formula_name(columns[k].name)) others.push_back(k);
+    names.push_back(is_formula_name(columns[k].name) ? columns[k].name : fmt::format("_column{}", k));
   }
+  std::stable_sort(others.begin(), others.end(),
+                   [&](std::size_t a, std::size_t b) { return columns[a].name.size() > columns[b].name.size(); });
+  std::string spelt = formula;
+  for (const std::size_t k : others) replace_word(spelt, columns[k].name, names[k]);
   try {
-    Formula evaluate(formula, names);
+    Formula evaluate(spelt, names);
     std::vector<double> row(names.size()), result(rows());
     for (std::size_t i = 0; i < rows(); ++i) {
-      for (std::size_t k = 0; k < used.size(); ++k) row[k] = (*used[k])[i];
+      for (std::size_t k = 0; k < row.size(); ++k) row[k] = values[k][i];
       result[i] = evaluate(row);
     }
     columns.push_back(column);
     values.push_back(std::move(result));
+  } catch (const UnknownVariable& unknown) {
+    throw std::invalid_argument(fmt::format("{}: {}", column.name, no_column(*this, unknown.name)));
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}; it may use: {}", column.name, error.what(), fmt::join(names, ", ")));
+    throw std::invalid_argument(fmt::format("{}: {}", column.name, error.what()));
   }
 }
 

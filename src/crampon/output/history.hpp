@@ -49,6 +49,9 @@ struct History {
   bool has_column(std::string_view name) const;
   /// Index by the name without its unit. Throws std::out_of_range with the most similar name.
   std::size_t column_index(std::string_view name) const;
+  /// The column of this name, else all of which it is the part before the first dot: "J" stands for "J.notch.start" and "J.notch.end". Throws as
+  /// column_index.
+  std::vector<std::string> columns_of(const std::string& name) const;
   const std::vector<double>& column(std::string_view name) const { return values[column_index(name)]; }
   const std::string& unit(std::string_view name) const { return columns[column_index(name)].unit; }
   /// Value at a time, linear between rows. Throws std::out_of_range when the time lies outside the rows (beyond 1e-9 of their span).
@@ -56,7 +59,7 @@ struct History {
   /// Over [from, to], ends interpolated. Throws as value_at, and std::invalid_argument when to < from.
   HistoryStatistics statistics(std::string_view name, double from, double to) const;
   /// Adds a column that is computed from others, row by row; unit in SI. Throws std::invalid_argument (what the formula's parser says; a name
-  /// that the history has).
+  /// that the history has; a name in the formula that it does not have, with the most similar one).
   void add_column(const HistoryColumn& column, const std::string& formula);
 };
 

@@ -57,13 +57,16 @@ bool labels_touch(const Axis& axis, const AxisRange& range, Direction direction,
 Axis label_axis(const AxisRange& range, Direction direction, double length, double overhang, const LabelFont& font) {
   const double usual = length / ((direction == Direction::across ? 4.5 : 3) * font.size);
   std::optional<Axis> fitting;
-  for (int most = std::clamp(static_cast<int>(usual), 2, 12); most >= 1; --most) {
+  const auto try_with = [&](int most) {
     Axis axis = axis_with(range, most);
-    if (labels_touch(axis, range, direction, length, font)) continue;
+    if (labels_touch(axis, range, direction, length, font)) return;
     if (!fitting || axis.marks.size() > fitting->marks.size()) fitting = std::move(axis);
-    if (fitting->marks.size() >= 2) break;
-  }
-  if (!fitting) {  // a lone number is better than none
+  };
+  const auto is_scale = [&] { return fitting && fitting->marks.size() >= 2; };
+  const int first = std::clamp(static_cast<int>(usual), 2, 12);
+  for (int most = first; most >= 1 && !is_scale(); --most) try_with(most);
+  for (int most = first + 1; most <= 2 * first && !is_scale(); ++most) try_with(most);  // a lone number is no scale
+  if (!fitting) {                                                                       // a lone number is better than none
     fitting = axis_with(range, 1);
     fitting->marks.resize(std::min<std::size_t>(1, fitting->marks.size()));
   }

@@ -90,6 +90,20 @@ void Canvas::text_upwards(double x, double y, const std::string& label, double s
   cairo_restore(context());
 }
 
+void Canvas::text_over(double x, double y, const std::string& text, double size) {
+  x -= text_width(text, size) / 2;
+  y += 0.73 * size / 2;  // the height of digits, as in text()
+  cairo_move_to(context(), x, y);
+  cairo_text_path(context(), text.c_str());
+  set_colour({1, 1, 1});
+  cairo_set_line_width(context(), 0.28 * size);
+  cairo_set_line_join(context(), CAIRO_LINE_JOIN_ROUND);
+  cairo_stroke_preserve(context());
+  set_colour({0, 0, 0});
+  cairo_fill(context());
+  remember(text, x, y);
+}
+
 double Canvas::text_width(const std::string& text, double size) const {
   set_font(size);
   cairo_text_extents_t extents;

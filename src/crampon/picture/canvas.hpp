@@ -35,6 +35,8 @@ class Canvas {
   void text(double x, double y, const std::string& text, double size, AlignX align_x, AlignY align_y);
   /// Reads upwards; (x, y) is the middle of the text.
   void text_upwards(double x, double y, const std::string& text, double size);
+  /// Black with a white rim, so that it can be read over any colour; (x, y) is the middle of the text.
+  void text_over(double x, double y, const std::string& text, double size);
   double text_width(const std::string& text, double size) const;
   /// The size, or a smaller one at which the text is no longer than `room`.
   double fitting_size(const std::string& text, double size, double room) const;

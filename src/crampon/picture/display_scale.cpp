@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "crampon/core/formula.hpp"
+
 namespace crampon {
 namespace {
 
@@ -33,9 +35,12 @@ bool takes_prefix(std::string_view unit) {
   return false;
 }
 
-// "m2/s2" as "m²/s²".
+// "m2/s2" as "m²/s²", "Pa m^(1/2)" as "Pa √m".
 std::string pretty(std::string_view unit) {
+  constexpr std::string_view root = "m^(1/2)";
   std::string out;
+  if (const std::size_t at = unit.find(root); at != std::string_view::npos)
+    return pretty(unit.substr(0, at)) + "√m" + pretty(unit.substr(at + root.size()));
   for (const char c : unit) {
     if (c >= '0' && c <= '9' && !out.empty())
       out += superscript(c - '0');
@@ -68,7 +73,14 @@ DisplayScale display_scale(double largest, const std::string& unit) {
 
 std::string spelt_out(std::string name) {
   if (name == "von_mises") return "von Mises stress";
-  std::replace(name.begin(), name.end(), '_', ' ');
+  // What is shown and what it is of: "J.notch.end". A formula of the user's may be called "1.5 times J".
+  if (const std::size_t dot = name.find('.'); dot != std::string::npos && is_formula_name(name.substr(0, dot))) {
+    std::string of = name.substr(dot + 1);
+    std::replace(of.begin(), of.end(), '.', ' ');
+    return spelt_out(name.substr(0, dot)) + ", " + spelt_out(of);
+  }
+  const bool is_symbol = name.size() > 1 && name[1] == '_';  // with an index
+  if (!is_symbol) std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 

@@ -16,7 +16,7 @@ struct DisplayScale {
 /// Prefixes go to units that start with a linear m, s, N, Pa, J, W, Hz or kg; others, and what lies beyond all prefixes, get a power of ten.
 DisplayScale display_scale(double largest, const std::string& unit);
 
-/// A quantity's or a column's name as words: "stress xx", "von Mises stress".
+/// A quantity's or a column's name as words: "stress xx", "von Mises stress", "crack length, notch", "K_I, notch end".
 std::string spelt_out(std::string name);
 
 /// "name (unit)", or the name alone without a unit.

@@ -10,12 +10,11 @@
 #include "crampon/picture/display_scale.hpp"
 #include "crampon/picture/layout.hpp"
 #include "crampon/picture/paint_bodies.hpp"
+#include "crampon/picture/paint_cracks.hpp"
 #include "crampon/picture/scene.hpp"
 
 namespace crampon {
 namespace {
-
-using Point = std::array<double, 2>;
 
 constexpr Colour ink{0.1, 0.1, 0.12};
 
@@ -57,47 +56,6 @@ void choose_colours(PictureMap& map, const PictureExtent& extent, const DrawOpti
   }
   map.lowest = range[0];
   map.highest = range[1];
-}
-
-void trace(cairo_t* c, const std::vector<Point>& line, const PictureMap::Panel& panel) {
-  for (const Point& p : line) {
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1])) continue;
-    const Point at = panel.pixel(p[0], p[1]);
-    cairo_line_to(c, at[0], at[1]);
-  }
-}
-
-void paint_crack(Canvas& canvas, const Scene::Surfaces& crack, const PictureMap::Panel& panel, double line_width) {
-  cairo_t* c = canvas.context();
-  // Only where upper lies above lower is there a gap; the upper side is left of the directed path (N03).
-  const auto opening = [&](std::size_t v) {
-    const std::size_t n = crack.upper.size(), i = std::max<std::size_t>(v, 1) - 1, j = std::min(v + 1, n - 1);
-    const double dx = crack.lower[j][0] - crack.lower[i][0], dy = crack.lower[j][1] - crack.lower[i][1];
-    return (crack.upper[v][1] - crack.lower[v][1]) * dx - (crack.upper[v][0] - crack.lower[v][0]) * dy;
-  };
-  canvas.set_colour({1, 1, 1});
-  for (std::size_t v = 0; v + 1 < crack.upper.size(); ++v) {
-    if (opening(v) <= 0 && opening(v + 1) <= 0) continue;
-    cairo_new_sub_path(c);
-    trace(c, {crack.upper[v], crack.upper[v + 1], crack.lower[v + 1], crack.lower[v]}, panel);
-    cairo_close_path(c);
-  }
-  cairo_set_fill_rule(c, CAIRO_FILL_RULE_WINDING);
-  cairo_fill(c);  // all pieces in one path: no seams between them
-  const auto stroke = [&](const Colour& colour, double alpha, double width) {
-    cairo_set_source_rgba(c, colour.red, colour.green, colour.blue, alpha);
-    cairo_set_line_width(c, width);
-    for (const std::vector<Point>* surface : {&crack.upper, &crack.lower}) {
-      trace(c, *surface, panel);
-      cairo_new_sub_path(c);
-    }
-    cairo_stroke(c);
-  };
-  cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_line_cap(c, CAIRO_LINE_CAP_ROUND);
-  stroke({1, 1, 1}, 0.55, 2.2 * line_width);  // keeps a closed crack visible on dark particles
-  stroke({0, 0, 0}, 1, line_width);
-  cairo_set_line_cap(c, CAIRO_LINE_CAP_BUTT);
 }
 
 void paint_axes(Canvas& canvas, const PictureLayout& p, std::size_t index, const PictureMap::Panel& panel) {
@@ -198,7 +156,7 @@ PictureMap draw_panel(const std::vector<Snapshot>& snapshots, const DrawOptions&
     side.names.push_back(entry.name);
     map.legend.push_back({entry.name, entry.colour});
   }
-  const PictureLayout p = lay_out_picture(scenes.size(), window_of(extent, options), side, options);
+  const PictureLayout p = lay_out_picture(scenes.size(), window_of(extent, options), side, extent.grown || extent.tips, options);
   map.width = p.width;
   map.height = p.height;
   Canvas canvas(p.width, p.height);
@@ -212,7 +170,7 @@ PictureMap draw_panel(const std::vector<Snapshot>& snapshots, const DrawOptions&
     cairo_rectangle(canvas.context(), plot.left, plot.top, plot.width, plot.height);
     cairo_clip(canvas.context());
     paint_bodies(canvas, scenes[i], map, categories, panel);
-    for (const Scene::Surfaces& crack : scenes[i].cracks) paint_crack(canvas, crack, panel, std::max(1.5, 0.12 * p.sizes.text));
+    paint_cracks(canvas, scenes[i], panel, p.sizes, options);
     cairo_restore(canvas.context());
     paint_axes(canvas, p, i, panel);
     std::string label = "t = " + quantity_text(scenes[i].time, latest, "s");
@@ -226,6 +184,7 @@ PictureMap draw_panel(const std::vector<Snapshot>& snapshots, const DrawOptions&
     }
   }
   if (p.title_y > 0) title(canvas, p.width / 2., p.title_y, p.width - 2 * p.sizes.gap, options.title, "", 1.25 * p.sizes.text);
+  if (p.key_y > 0) paint_key(canvas, p, extent);
   if (categories.empty())
     paint_bar(canvas, p, map);
   else

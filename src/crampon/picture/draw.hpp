@@ -24,6 +24,7 @@ struct PictureExtent {
   std::array<double, 4> window{INFINITY, -INFINITY, INFINITY, -INFINITY};  ///< x lowest, x highest, y lowest, y highest, m
   double lowest = INFINITY, highest = -INFINITY;                           ///< values of particles that deform, SI
   bool walls = false;                                                      ///< a margin shows them
+  bool tips = false, grown = false;                                        ///< a line under the plots explains tips, growth of cracks
   void include(const PictureExtent& other);
   void include_place(const std::array<double, 4>& box);
 };
@@ -39,6 +40,7 @@ struct DrawOptions {
   std::optional<std::array<double, 4>> grid{};     ///< likewise: drawn when there is no body
   std::optional<PictureExtent> extent{};           ///< of all pictures of a series; default: of the snapshots
   std::vector<std::string> category_names{};       ///< of the quantity's numbers; default: the numbers, names of bodies for "body"
+  bool tip_names = false;                          ///< beside the marks of tips
   std::string title{};
   int columns = 0;        ///< of a panel of several snapshots; 0: the picture's shape decides
   int width = 1200;       ///< px; narrower for tall bodies
@@ -50,6 +52,7 @@ struct Snapshot {
   const PointFrame* particles = nullptr;
   const CrackFrame* cracks = nullptr;  ///< may be null
   std::vector<RigidShape> rigid{};     ///< bodies and walls that are drawn by their shape
+  const CrackFrame* start = nullptr;   ///< cracks at the start, to tell what has grown since; may be null
 };
 
 /// Of the particles that deform, and of the rigid bodies. Throws as draw_frame.
@@ -79,7 +82,7 @@ struct PictureMap {
 
 /// Draws particles as parallelograms (their undeformed size, deformed by the field "deformation_gradient", 9 components by rows, or
 /// "strain" when present), an outline about each body, rigid bodies and walls by their shapes, hatched, cracks by their two surfaces
-/// with the gap between them in white, a colour bar (a legend for categories: is_category), axes and the time. Three-dimensional frames
+/// with the gap between them in white and what has grown since the start in red, a mark at each tip that lies in a body, a colour bar (a legend for categories: is_category), axes and the time. Three-dimensional frames
 /// are seen along z, walls in them by their section half way up.
 /// Throws std::invalid_argument (unknown quantity, magnification without displacements, nothing to draw) and std::runtime_error
 /// "path: reason".

@@ -39,7 +39,7 @@ void list_names(PictureLayout& p, const Side& side, double height, double room, 
 
 }  // namespace
 
-PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, const Side& side, const DrawOptions& options) {
+PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, const Side& side, bool has_key, const DrawOptions& options) {
   PictureLayout p;
   p.sizes.text = std::clamp(options.width / 70., 11., 40.);
   p.sizes.gap = 0.5 * p.sizes.text;
@@ -54,7 +54,7 @@ PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, c
   const LabelFont font = label_font(ruler, text);
   const double between = count > 1 ? 1.4 * text : 0, head = 2.2 * text, bar_width = 1.2 * text;
   const bool own_title = count > 1 && !options.title.empty();
-  const double top = gap + (own_title ? 2.2 * text : 0), bottom = p.sizes.tick + 3.2 * text + gap;
+  const double top = gap + (own_title ? 2.2 * text : 0), bottom = p.sizes.tick + (has_key ? 4.8 : 3.2) * text + gap;
   double left = 5 * text, right = 8 * text, plot_width = 0, plot_height = 0;
   // Margins depend on the numbers beside the axes, those on the plots' size; a few rounds settle it.
   for (int round = 0; round < 4; ++round) {
@@ -89,6 +89,7 @@ PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, c
   p.width = static_cast<int>(std::ceil(left + p.columns * plot_width + (p.columns - 1) * between + right));
   p.height = static_cast<int>(std::ceil(top + p.rows * (head + plot_height) + (p.rows - 1) * gap + bottom));
   p.title_y = own_title ? gap + text : 0;
+  p.key_y = has_key ? p.height - gap - 0.8 * text : 0;
   left = std::floor(left);
   for (std::size_t i = 0; i < count; ++i) {
     const int column = static_cast<int>(i) % p.columns, row = static_cast<int>(i) / p.columns;

@@ -36,9 +36,11 @@ struct PictureLayout {
   std::vector<std::string> legend;  ///< names that have room, shortened; the last may tell how many have none
   double legend_row = 0;            ///< px from one to the next
   double title_y = 0;               ///< middle of the title's line; 0: none
+  double key_y = 0;                 ///< likewise of the key under the plots
 };
 
-/// Fits `count` plots of the window into the width of the options; the window grows where a plot would be too small to read.
-PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, const Side& side, const DrawOptions& options);
+/// Fits `count` plots of the window into the width of the options; the window grows where a plot would be too small to read. has_key: there is a line
+/// under the plots that explains cracks and tips.
+PictureLayout lay_out_picture(std::size_t count, std::array<double, 4> window, const Side& side, bool has_key, const DrawOptions& options);
 
 }  // namespace crampon

@@ -14,6 +14,9 @@ struct Colour {
 /// Of rigid bodies and walls, under their hatching.
 inline constexpr Colour rigid_colour{0.8, 0.8, 0.81};
 
+/// Of what has grown of a crack. Dark enough to be told from white, and far from all colours of the palettes.
+inline constexpr Colour grown_colour{0.86, 0.05, 0.27};
+
 enum class Palette {
   uniform,    ///< dark violet over teal to yellow: equal steps look equal, lightness rises throughout, safe for colour-blind eyes
   grey,       ///< black to white, as N03's figures

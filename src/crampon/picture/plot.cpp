@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -50,7 +51,7 @@ void mark(Canvas& canvas, double x, double y, std::size_t index, double text) {
   cairo_t* c = canvas.context();
   set_dashes(c, 0, text);
   cairo_new_sub_path(c);
-  cairo_arc(c, x, y, 0.22 * text, 0, 2 * 3.141592653589793);
+  cairo_arc(c, x, y, 0.22 * text, 0, 2 * std::numbers::pi);
   canvas.set_colour({1, 1, 1});
   cairo_fill_preserve(c);
   canvas.set_colour(curve_colours()[index % curve_colours().size()]);
@@ -62,8 +63,10 @@ void paint_curve(Canvas& canvas, const Curve& curve, std::size_t index, const Pl
   cairo_t* c = canvas.context();
   bool down = false;
   set_style(canvas, index, text);
+  const auto is_there = [&](std::size_t i) { return i < curve.x.size() && std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]); };
+  std::vector<std::array<double, 2>> alone;
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
-    if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) {
+    if (!is_there(i)) {
       down = false;
       continue;
     }
@@ -72,11 +75,17 @@ void paint_curve(Canvas& canvas, const Curve& curve, std::size_t index, const Pl
       mark(canvas, at[0], at[1], index, text);
     else if (down)
       cairo_line_to(c, at[0], at[1]);
-    else
+    else if (is_there(i + 1))
       cairo_move_to(c, at[0], at[1]);
+    else
+      alone.push_back(at);
     down = true;
   }
   cairo_stroke(c);
+  for (const auto& at : alone) {
+    cairo_arc(c, at[0], at[1], 0.13 * text, 0, 2 * std::numbers::pi);
+    cairo_fill(c);
+  }
   set_dashes(c, 0, text);
 }
 
@@ -153,7 +162,7 @@ void paint_area(Canvas& canvas, const Area& area, const PlotMap::Area& map, cons
   }
   canvas.stroke_box({map.left - 0.5, map.top - 0.5, map.width + 1, map.height + 1}, 1);
   for (const auto& [index, curve] : area.curves) {
-    const double over = curve->style == CurveStyle::marks ? 0.3 * text : 0;  // a mark on the edge is shown whole
+    const double over = (curve->style == CurveStyle::marks ? 0.3 : 0.1) * text;  // a mark or a line on the edge is shown whole
     cairo_save(canvas.context());
     cairo_rectangle(canvas.context(), map.left - over, map.top - over, map.width + 2 * over, map.height + 2 * over);
     cairo_clip(canvas.context());
@@ -163,6 +172,16 @@ void paint_area(Canvas& canvas, const Area& area, const PlotMap::Area& map, cons
   canvas.set_colour(ink);
   const double fitting = canvas.fitting_size(area.axis.title, text, map.height);
   canvas.text_upwards(0.5 * text + 0.75 * text, map.top + map.height / 2, area.axis.title, fitting);
+}
+
+// Of what is measured in a unit.
+std::string quantity_of_unit(const std::string& unit) {
+  static const std::map<std::string, std::string> all{
+      {"J", "energy"},        {"N", "force"},    {"Pa", "stress"}, {"m", "length"}, {"s", "time"},    {"m/s", "velocity"},
+      {"kg m/s", "momentum"}, {"N m", "moment"}, {"kg", "mass"},   {"W", "power"},  {"rad", "angle"}, {"J/m2", "energy per area"},
+      {"Pa m^(1/2)", "K"}};
+  const auto found = all.find(unit);
+  return found == all.end() ? "" : found->second;
 }
 
 PlotMap plot_areas(std::vector<Area> areas, const PlotOptions& options, const std::filesystem::path& path) {
@@ -198,7 +217,14 @@ PlotMap plot_areas(std::vector<Area> areas, const PlotOptions& options, const st
     double widest_label = 0;
     for (Area& area : areas) {
       const Range y = fitted(area.y, options.y_lowest, options.y_highest, 0.06);
-      area.axis = label_axis({y.lowest, y.highest, area.name, area.unit, {}}, Direction::upwards, height, 0.5 * text, font);
+      const auto labelled = [&] {
+        return label_axis({y.lowest, y.highest, area.name, area.unit, {}}, Direction::upwards, height, 0.5 * text, font);
+      };
+      area.axis = labelled();
+      if (const std::string shorter = quantity_of_unit(area.unit); font.width(area.axis.title) > height && !shorter.empty()) {
+        area.name = shorter;  // the legend names the curves then
+        area.axis = labelled();
+      }
       widest_label = std::max(widest_label, area.axis.width);
     }
     left = std::floor(2.5 * text + widest_label + 0.3 * text + tick);
@@ -230,23 +256,33 @@ PlotMap plot_areas(std::vector<Area> areas, const PlotOptions& options, const st
   return map;
 }
 
-// What curves of one unit have in common: the last words of their names, else what is measured in that unit, else all names.
+// What curves of one unit have in common: the quantity where they differ in the thing alone, else the last words of their names, else what is measured in
+// that unit, else all names.
 std::string common_name(const std::vector<std::string>& names, const std::string& unit) {
+  const std::string of_first = names[0].substr(0, names[0].find(", "));
+  if (of_first != names[0] && std::all_of(names.begin(), names.end(), [&](const std::string& n) { return n.starts_with(of_first + ", "); }))
+    return of_first;
   const auto last_words = [&](std::size_t length) { return names[0].substr(names[0].size() - length); };
   std::string common;
   for (std::size_t from = names[0].find(' '); from != std::string::npos && common.empty(); from = names[0].find(' ', from + 1)) {
     const std::string end = last_words(names[0].size() - from);
-    if (std::all_of(names.begin(), names.end(), [&](const std::string& n) { return n.ends_with(end) || n == end.substr(1); }))
-      common = end.substr(1);
+    const auto ends_so = [&](const std::string& n) {
+      return n.find(", ") == std::string::npos && (n.ends_with(end) || n == end.substr(1));
+    };
+    if (std::all_of(names.begin(), names.end(), ends_so)) common = end.substr(1);
   }
+  if (common.empty()) common = quantity_of_unit(unit);
   if (!common.empty()) return common;
-  static const std::map<std::string, std::string> of_unit{
-      {"J", "energy"}, {"N", "force"},      {"Pa", "stress"},           {"m", "length"},
-      {"s", "time"},   {"m/s", "velocity"}, {"kg m/s", "momentum"},     {"N m", "moment"},
-      {"kg", "mass"},  {"W", "power"},      {"J/m2", "energy per area"}};
-  if (const auto found = of_unit.find(unit); found != of_unit.end()) return found->second;
   for (const std::string& name : names) common += (common.empty() ? "" : ", ") + name;
   return common;
+}
+
+// Each name once, in the order in which they come.
+std::vector<std::string> different(const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  for (const std::string& name : names)
+    if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+  return all;
 }
 
 }  // namespace
@@ -280,16 +316,23 @@ PlotMap plot_history(const std::vector<HistoryCurve>& curves, const PlotOptions&
     area->curves.emplace_back(i, &drawn[i]);
   }
   for (Area& area : areas) {
-    std::vector<std::string> different;
-    for (const auto& [index, curve] : area.curves)
-      if (std::find(different.begin(), different.end(), names[index]) == different.end()) different.push_back(names[index]);
-    if (different.size() > 1) area.name = common_name(different, area.unit);
+    std::vector<std::string> shown;
+    for (const auto& [index, curve] : area.curves) shown.push_back(names[index]);
+    shown = different(shown);
+    if (shown.size() > 1) area.name = common_name(shown, area.unit);
   }
   if (areas.empty()) throw std::invalid_argument("there is nothing to plot: no column");
   PlotOptions filled = options;
   const std::string& along = curves[0].over;
-  if (filled.x_name.empty()) filled.x_name = along.empty() ? "time" : spelt_out(along);
   if (filled.x_unit.empty()) filled.x_unit = along.empty() ? "s" : curves[0].history->unit(along);
+  std::vector<std::string> over;
+  for (const HistoryCurve& c : curves) {
+    over.push_back(c.over.empty() ? "time" : spelt_out(c.over));
+    if (const std::string unit = c.over.empty() ? "s" : c.history->unit(c.over); unit != filled.x_unit)
+      throw std::invalid_argument(fmt::format("curves over a column in {} and over one in {} have no axis in common", filled.x_unit, unit));
+  }
+  over = different(over);
+  if (filled.x_name.empty()) filled.x_name = over.size() > 1 ? common_name(over, filled.x_unit) : over[0];
   if (areas.size() == 1 && !options.y_name.empty()) areas[0].name = options.y_name;
   return plot_areas(std::move(areas), filled, path);
 }

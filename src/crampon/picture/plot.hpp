@@ -14,7 +14,7 @@ namespace crampon {
 
 enum class CurveStyle { line, marks };
 
-/// Points of one curve, SI; NaN interrupts it.
+/// Points of one curve, SI; NaN interrupts it. A point alone between two NaN is drawn as a dot.
 struct Curve {
   std::string label;
   std::vector<double> x, y;
@@ -51,7 +51,7 @@ struct HistoryCurve {
   const History* history = nullptr;
   std::string column;
   std::string label;   ///< empty: the column's name
-  std::string over{};  ///< column along the horizontal axis; empty: the time
+  std::string over{};  ///< column along the horizontal axis, of the same unit for all curves; empty: the time
 };
 
 /// Columns over time or another column; those of different units go to areas above each other that share the axis.

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "crampon/output/crack_tips.hpp"
+
 namespace crampon {
 namespace {
 
@@ -26,11 +28,21 @@ std::vector<Point> magnified(const std::vector<double>& at, const CrackFrame& fr
   return points;
 }
 
-void add_cracks(Scene& scene, const CrackFrame& c, double magnification) {
+void add_cracks(Scene& scene, const CrackFrame& c, const CrackFrame* start, double magnification) {
   for (std::size_t k = 0; k + 1 < c.begin.size(); ++k) {
     const auto from = static_cast<std::size_t>(c.begin[k]), to = static_cast<std::size_t>(c.begin[k + 1]);
-    scene.cracks.push_back({magnified(c.upper.empty() ? c.plane : c.upper, c, from, to, magnification),
-                            magnified(c.lower.empty() ? c.plane : c.lower, c, from, to, magnification)});
+    Scene::Surfaces& crack = scene.cracks.emplace_back();
+    crack.upper = magnified(c.upper.empty() ? c.plane : c.upper, c, from, to, magnification);
+    crack.lower = magnified(c.lower.empty() ? c.plane : c.lower, c, from, to, magnification);
+    const auto before = vertices_before(c, k, start ? *start : c);
+    if (before) crack.first_at_start = before->first - from, crack.last_at_start = before->second - from;
+  }
+  for (const FrameTip& tip : tips_of(c)) {
+    if (!tip.is_in_body()) continue;
+    const std::size_t first = tip.at_end ? tip.vertex - 1 : tip.vertex;
+    const std::vector<Point> segment = magnified(c.plane, c, first, first + 2, magnification);
+    const Point &at = segment[tip.at_end ? 1 : 0], &behind = segment[tip.at_end ? 0 : 1];
+    scene.tips.push_back({at, {at[0] - behind[0], at[1] - behind[1]}, c.names[tip.crack] + " " + tip.end()});
   }
 }
 
@@ -76,7 +88,7 @@ Scene make_scene(const Snapshot& snapshot, const DrawOptions& options, PointValu
     scene.rigid_body[body] = true;
   }
   std::erase_if(scene.shapes, [&](const ParticleShape& s) { return scene.is_rigid(s.index); });
-  if (snapshot.cracks) add_cracks(scene, *snapshot.cracks, options.magnification);
+  if (snapshot.cracks) add_cracks(scene, *snapshot.cracks, snapshot.start, options.magnification);
   return scene;
 }
 
@@ -98,6 +110,8 @@ PictureExtent extent_of(const Scene& scene) {
     if (box && (!wall || rigid.view.is_hollow() || is_beside(*box, bodies))) e.include_place(*box);
     e.walls = e.walls || wall;
   }
+  e.tips = !scene.tips.empty();
+  e.grown = std::any_of(scene.cracks.begin(), scene.cracks.end(), [](const Scene::Surfaces& crack) { return crack.has_grown(); });
   return e;
 }
 
@@ -110,6 +124,8 @@ void PictureExtent::include(const PictureExtent& other) {
   include_place(other.window);
   lowest = std::min(lowest, other.lowest), highest = std::max(highest, other.highest);
   walls = walls || other.walls;
+  tips = tips || other.tips;
+  grown = grown || other.grown;
 }
 
 PictureExtent picture_extent(const Snapshot& snapshot, const DrawOptions& options) {

@@ -19,8 +19,15 @@ struct Scene {
   std::vector<bool> rigid_body;       ///< per body: it is drawn as a rigid one
   struct Surfaces {
     std::vector<std::array<double, 2>> upper, lower;
+    std::size_t first_at_start = 0, last_at_start = 0;  ///< vertices between which the crack was there at the start
+    bool has_grown() const { return first_at_start > 0 || last_at_start + 1 < upper.size(); }
   };
   std::vector<Surfaces> cracks;
+  struct Tip {
+    std::array<double, 2> at{}, ahead{};  ///< m; the way in which the crack goes on, of any length
+    std::string name;
+  };
+  std::vector<Tip> tips;  ///< those that lie in a body
   struct Rigid {
     const RigidShape* shape = nullptr;
     RigidView view;

@@ -4,6 +4,7 @@
 
 #include "crampon/material/material.hpp"
 #include "crampon/output/stress_measures.hpp"
+#include "crampon/run/crack_quantities.hpp"
 #include "crampon/run/observers/registry.hpp"
 #include "crampon/run/quantities.hpp"
 
@@ -53,6 +54,24 @@ std::string law_variables_table() {
     out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(q.name), q.unit, components_text(q.components), q.common ? "yes" : "", of,
                        q.help);
   }
+  return out;
+}
+
+std::string crack_quantities_table() {
+  const auto where = [](CrackFrames in) {
+    switch (in) {
+      case CrackFrames::with_tractions:
+        return "in runs with a traction law";
+      case CrackFrames::with_fracture:
+        return "at tips, in runs with `[fracture]`";
+      case CrackFrames::all:
+        break;
+    }
+    return "";
+  };
+  std::string out = "| quantity | unit | where | meaning | formula |\n| --- | --- | --- | --- | --- |\n";
+  for (const CrackQuantity& q : crack_quantities())
+    out += fmt::format("| {} | {} | {} | {} | {} |\n", code(q.name), q.unit, where(q.in), q.meaning, code(q.formula));
   return out;
 }
 
@@ -121,14 +140,14 @@ std::string output_reference_page() {
     out += fmt::format("| {} | {} | {} | {} |\n", code(c.pattern), c.unit.empty() ? "its own" : c.unit, c.meaning, code(c.formula));
   out +=
       "\n## Cracks\n\n"
-      "`cracks.pvd` holds each crack three times: its plane, its upper and its lower surface (`surface` 0, 1, 2). Vertices carry `opening` "
-      "and "
-      "`sliding` (m), and with a traction law `traction_normal`, `traction_shear` (Pa) and `damage` (0 whole, 1 failed). `events.csv` has "
-      "a row for what happened to cracks, by the number in `event`. 0: a traction law failed at a vertex; `G_I` and `G_II` (J/m2) are the "
-      "energies that it took there. 1: a tip grew; 2: it grew into another crack; 3: it grew out of the body; 4: it grew as far as it may. "
-      "Of a tip `crack` is the number of the crack from 0, `end` is 0 at the start of its path and 1 at its end, the place is where it is "
-      "now, "
-      "`angle` (rad) is its turn to the left, and `J`, `K_I` and `K_II` are what it had before.\n\n"
+      "`cracks.pvd` holds each crack three times: its plane, its upper and its lower surface (`surface` 0, 1, 2). Vertices carry the "
+      "quantities of this table. What tips have is as it was last found, and nan at all other vertices; `crampon info` lists it for the "
+      "last frame.\n\n" +
+      crack_quantities_table() +
+      "\n`events.csv` has a row for what happened to cracks, by the number in `event`. 0: a traction law failed at a vertex; `G_I` and "
+      "`G_II` (J/m2) are the energies that it took there. 1: a tip grew; 2: it grew into another crack; 3: it grew out of the body; 4: it "
+      "grew as far as it may. Of a tip `crack` is the number of the crack from 0, `end` is 0 at the start of its path and 1 at its end, "
+      "the place is where it is now, `angle` (rad) is its turn to the left, and `J`, `K_I` and `K_II` are what it had before.\n\n"
       "## Nodes\n\n"
       "With `[output] grid = true`, `grid.pvd` holds each node once for every velocity field with mass there: `cracks_across` (how many "
       "cracks lie between its particles and the node), `mass` (kg), `momentum` (kg m/s) and `force` (N) of the last step.\n\n"
@@ -142,7 +161,14 @@ std::string output_reference_page() {
       "no part in the colour range, nor in a `--profile`. In space pictures look along z; walls are shown by their section half way up the "
       "particles. Several pictures of one call (`--all`, `--frame`, `--time`) share one window and one range. Where numbers along an axis "
       "would differ in their last digits only, they show the difference from a round one that the axis names, as in "
-      "`time \u2212 1.2 s (\u00b5s)`.\n";
+      "`time \u2212 1.2 s (\u00b5s)`.\n\n"
+      "Cracks are drawn by their two surfaces; what has grown since the first frame is red. With `[fracture]` a ring marks each tip that "
+      "lies in a body, and `--tip-names` writes its name beside it where there is room. A line under the picture says what the colours "
+      "and the ring mean.\n\n"
+      "`--history` plots columns of history.csv. A name without its dots stands for all columns that begin with it: `--history J "
+      "crack_length` plots J of every tip and the length of every crack. `--against crack_length` puts the length of its own crack under "
+      "each of these, `--against grown.NAME.END` how far a tip has grown. Formulas take the whole name: "
+      "`\"G [J/m2] = J.notch.end/2\"`. Where a column holds nan the curve has a gap.\n";
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "crampon/core/parallel.hpp"
+#include "crampon/run/crack_quantities.hpp"
 #include "crampon/run/quantities.hpp"
 #include "crampon/step/crack_motion.hpp"
 
@@ -119,13 +120,21 @@ PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, co
 }
 
 template <>
-CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work) {
+CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work, const Model<2>& model) {
   CrackFrame frame;
   frame.time = state.clock.time;
   frame.step = state.clock.step;
-  DataArray opening{"opening", "m", 1, {}}, sliding{"sliding", "m", 1, {}};
-  for (const Crack<2>& leading : state.cracks.list) {
-    const Crack<2> crack = present_crack(state, work, leading);
+  const bool tractions =
+      std::any_of(state.cracks.list.begin(), state.cracks.list.end(), [](const Crack<2>& c) { return !c.traction.history.empty(); });
+  std::vector<const CrackQuantity*> wanted;
+  for (const CrackQuantity& q : crack_quantities()) {
+    if (q.in == CrackFrames::with_tractions && !tractions) continue;
+    if (q.in == CrackFrames::with_fracture && !model.fracture.on) continue;
+    wanted.push_back(&q);
+    frame.fields.push_back({q.name, q.unit, 1, {}});
+  }
+  for (std::size_t c = 0; c < state.cracks.size(); ++c) {
+    const Crack<2> crack = present_crack(state, work, state.cracks.list[c]);
     const std::vector<CrackOpening> openings = openings_of(crack);
     frame.names.push_back(crack.name);
     for (std::size_t v = 0; v < crack.plane.size(); ++v) {
@@ -134,30 +143,20 @@ CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work) {
       put(frame.upper, crack.upper[v]);
       put(frame.lower, crack.lower[v]);
       put(frame.original, crack.original[v]);
-      opening.values.push_back(openings[v].opening);
-      sliding.values.push_back(openings[v].sliding);
+      CrackVertexView view{openings[v]};
+      if (!crack.traction.history.empty()) view.traction = crack.traction.history[v];
+      for (const CrackTip& tip : state.fracture.tips) {
+        if (tip.crack == c && v == (tip.end == 0 ? 0 : crack.plane.size() - 1)) view.tip = &tip;
+      }
+      for (std::size_t q = 0; q < wanted.size(); ++q) frame.fields[q].values.push_back(wanted[q]->get(view));
     }
     frame.begin.push_back(static_cast<std::int64_t>(frame.plane.size() / 3));
-  }
-  frame.fields = {opening, sliding};
-  if (std::any_of(state.cracks.list.begin(), state.cracks.list.end(), [](const Crack<2>& c) { return !c.traction.history.empty(); })) {
-    DataArray normal{"traction_normal", "Pa", 1, {}}, shear{"traction_shear", "Pa", 1, {}}, damage{"damage", "1", 1, {}};
-    for (std::size_t c = 0; c < state.cracks.size(); ++c) {
-      for (std::size_t v = 0; v < state.cracks.list[c].plane.size(); ++v) {
-        const TractionHistory h =
-            state.cracks.list[c].traction.history.empty() ? TractionHistory{} : state.cracks.list[c].traction.history[v];
-        normal.values.push_back(h.normal_traction);
-        shear.values.push_back(h.shear_traction);
-        damage.values.push_back(h.damage);
-      }
-    }
-    frame.fields.insert(frame.fields.end(), {normal, shear, damage});
   }
   return frame;
 }
 
 template <>
-CrackFrame sample_cracks<3>(const State<3>& state, const StepWork<3>&) {
+CrackFrame sample_cracks<3>(const State<3>& state, const StepWork<3>&, const Model<3>&) {
   CrackFrame frame;
   frame.time = state.clock.time;
   frame.step = state.clock.step;

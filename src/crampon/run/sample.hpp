@@ -12,8 +12,9 @@ template <int Dim>
 PointFrame sample_particles(const State<Dim>& state, const Model<Dim>& model, const std::vector<std::string>& quantities,
                             Precision precision = Precision::full);
 
+/// With those of crack_quantities() that the run has.
 template <int Dim>
-CrackFrame sample_cracks(const State<Dim>& state, const StepWork<Dim>& work);
+CrackFrame sample_cracks(const State<Dim>& state, const StepWork<Dim>& work, const Model<Dim>& model);
 
 /// Every velocity field of every node with mass, as of the last step; nothing before the first.
 template <int Dim>

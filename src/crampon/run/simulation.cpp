@@ -122,7 +122,7 @@ class Engine final : public Simulation {
   PointFrame particles(const std::vector<std::string>& names, Precision precision) const override {
     return sample_particles(state_, model_, names, precision);
   }
-  CrackFrame cracks() const override { return sample_cracks(state_, work_); }
+  CrackFrame cracks() const override { return sample_cracks(state_, work_, model_); }
   PointFrame nodes() const override { return sample_nodes(state_, work_, model_); }
 
   std::vector<HistoryColumn> history_columns() const override { return history_.columns(); }

@@ -1,6 +1,7 @@
 #pragma once
 /// What is known of the tips of cracks: fracture parameters as they were last found (docs/theory/fracture.md).
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -55,6 +56,17 @@ enum class TipStatus : std::uint8_t {
   joined,    ///< it has met another crack, or its own path
   left,      ///< ... the edge of the body
   arrested,  ///< it has grown as far as it may
+};
+/// As users meet them, in the order of their numbers.
+struct TipStatusWord {
+  const char *word, *meaning;
+};
+inline constexpr std::array tip_status_words = {
+    TipStatusWord{"waits", "it has not grown yet"},
+    TipStatusWord{"grows", "it has grown and may grow on"},
+    TipStatusWord{"joined", "it has met a crack"},
+    TipStatusWord{"left", "it has met the edge of the body"},
+    TipStatusWord{"arrested", "it has grown as far as it may"},
 };
 
 /// What is found at a tip.

@@ -9,10 +9,6 @@ namespace crampon {
 /// What was last found at the tips of cracks, and how long cracks are.
 template <int Dim>
 class FractureParameters final : public Observer<Dim> {
-  struct Tip {
-    const CrackTip& is;
-    bool bridged, grows;  ///< a traction law acts on its crack; the crack may grow
-  };
   struct Length {
     double length = 0;  ///< m
   };
@@ -21,6 +17,12 @@ class FractureParameters final : public Observer<Dim> {
   };
 
  public:
+  struct Tip {
+    const CrackTip& is;
+    bool bridged = false;  ///< a traction law acts on its crack
+    bool may_grow = false;
+  };
+  /// Frames of cracks hold these too, at tips (run/crack_quantities.cpp).
   static const auto& tip_table() {
     static const std::vector<Column<Tip>> all = {
         {{"J.NAME.END", "J/m2",
@@ -44,11 +46,15 @@ class FractureParameters final : public Observer<Dim> {
          [](const Tip& t, int) { return t.is.now.K_II; }},
         {{"phase.NAME.END", "rad", "sliding against opening, two cells behind the tip", "atan2(sliding, opening)"},
          [](const Tip& t, int) { return t.is.now.phase; }},
-        {{"tip_speed.NAME.END", "m/s", "mean speed of a tip that grows over about the last two cells; where its crack may grow",
+        {{"tip_speed.NAME.END", "m/s", "mean speed of a tip that may grow over about the last two cells",
           "docs/theory/fracture.md, tips that run"},
          [](const Tip& t, int) { return t.is.now.speed; },
          Axes::none,
-         [](const Tip& t) { return t.grows; }},
+         [](const Tip& t) { return t.may_grow; }},
+        {{"grown.NAME.END", "m", "how far a tip has grown since the start", "sum of its increments"},
+         [](const Tip& t, int) { return t.is.grown; },
+         Axes::none,
+         [](const Tip& t) { return t.may_grow; }},
     };
     return all;
   }
@@ -83,7 +89,8 @@ class FractureParameters final : public Observer<Dim> {
     if constexpr (Dim == 2) {
       if (!now.model.fracture.on) return;
       for (const CrackTip& tip : now.state.fracture.tips) {
-        cells.add<Dim>(tip_table(), Tip{tip, now.model.tractions[tip.crack].acts(), now.model.growth[tip.crack].acts()},
+        const GrowthModel& growth = now.model.growth[tip.crack];
+        cells.add<Dim>(tip_table(), Tip{tip, now.model.tractions[tip.crack].acts(), growth.acts() && growth.end[tip.end]},
                        now.state.cracks.list[tip.crack].name + (tip.end == 0 ? ".start" : ".end"));
       }
       for (const Crack<2>& crack : now.state.cracks.list) {
