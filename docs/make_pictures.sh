@@ -43,3 +43,24 @@ draw pressurised_crack --quantity stress_yy --frame -1 --magnify 200 --window 0 
 draw brazilian --quantity stress_xx --frame -1 --magnify 2000 --range "-10 MPa" "10 MPa" --width 600 --output docs/pictures/verification/brazilian.png
 draw end_notched_flexure --quantity stress_xx --frame -1 --magnify 100 --width 800 --output docs/pictures/verification/end_notched_flexure.png
 draw spinning_ring --quantity von_mises --frame 1 3 5 7 --panel 2x2 --width 500 --output docs/pictures/verification/spinning_ring.png
+mkdir -p docs/pictures/verification
+standing="2*500e6*sqrt(5944*max(time - 3.3645e-4, 0)*0.4/3.14159265)/0.7"  # Freund's K_I of a crack that stands
+run freund freund fracture
+draw freund --history "K_I [Pa m^(1/2)] = K_I.crack.end" "Freund [Pa m^(1/2)] = $standing" --output docs/pictures/verification/freund.png
+run chen chen fracture --set time.end='"13 us"'
+draw chen --history "K_I [Pa m^(1/2)] = K_I.crack.end" \
+  "finite elements [Pa m^(1/2)] = $(/usr/bin/python3 tests/compare_history.py --as-formula tests/verification/references/chen.csv --scale 34.73e6)" \
+  --window "3 us" "13 us" "-20 MPa m^(1/2)" "100 MPa m^(1/2)" --output docs/pictures/verification/chen.png
+run forced_growth forced_growth verification
+draw forced_growth --history "J [J/m2] = J.crack.end" "standing tip [J/m2] = ($standing)^2*0.91/210e9" \
+  "running tip [J/m2] = 0.516*($standing)^2*0.91/210e9*if(time > 5.047e-4, 1, 0)" --output docs/pictures/verification/forced_growth.png
+run john_shah john_shah fracture
+draw john_shah --quantity stress_xx --time "0.85 ms" --magnify 50 --range "-6 MPa" "6 MPa" --output docs/pictures/verification/john_shah.png
+run bridged_dcb bridged_dcb verification
+draw bridged_dcb --history "J_far [J/m2] = J_far.crack.end" "elastic foundation [J/m2] = 4.518*min(time/1e-3, 1)^2" \
+  --output docs/pictures/verification/bridged_dcb.png
+run r_curve r_curve fracture
+draw r_curve --against crack_length.crack --history J_far.crack.end J.crack.end "toughness and bridges [J/m2] = 300" \
+  --output docs/pictures/verification/r_curve.png
+run strip_yield strip_yield verification
+draw strip_yield --quantity stress_yy --frame -1 --magnify 100 --window "-1 mm" "30 mm" "-12 mm" "12 mm" --output docs/pictures/verification/strip_yield.png
