@@ -125,6 +125,7 @@ CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work) {
   frame.step = state.clock.step;
   DataArray opening{"opening", "m", 1, {}}, sliding{"sliding", "m", 1, {}};
   for (const Crack<2>& leading : state.cracks.list) {
+    if (leading.plane.empty()) continue;
     const Crack<2> crack = present_crack(state, work, leading);
     const std::vector<CrackOpening> openings = openings_of(crack);
     frame.names.push_back(crack.name);
