@@ -118,4 +118,14 @@ inline double value(const Simulation& simulation, const std::string& name) {
   throw std::runtime_error("no column " + name);
 }
 
+/// What an event of a crack says, by the names of its columns.
+inline double said(const Simulation& simulation, std::size_t event, const std::string& column) {
+  const auto columns = simulation.event_columns();
+  const auto row = simulation.event_row(event);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].name == column) return row[i];
+  }
+  throw std::runtime_error("no column " + column);
+}
+
 }  // namespace crampon::test

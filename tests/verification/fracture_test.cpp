@@ -444,15 +444,6 @@ TEST(FractureParameters, TurnWithTheProblem) {
   }
 }
 
-/// What an event of a crack says, by the names of its columns.
-double said(const Simulation& s, std::size_t event, const std::string& column) {
-  const auto columns = s.event_columns();
-  const auto row = s.event_row(event);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].name == column) return row[i];
-  }
-  throw std::runtime_error("no column " + column);
-}
 enum Happened { grew = 1, joined = 2, left = 3, arrested = 4 };
 std::vector<int> ends_of(const Simulation& s) {  // of all tips, other than mere growth
   std::vector<int> all;

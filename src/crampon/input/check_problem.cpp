@@ -42,6 +42,7 @@ class ProblemChecker {
     }
     check_names();
     for (const CrackInput& crack : problem_.cracks) check_crack(crack);
+    for (const NucleationInput& nucleation : problem_.nucleations) check_nucleation(nucleation);
     for (const BoundaryInput& boundary : problem_.boundaries) check_boundary(boundary);
     for (const SymmetryInput& symmetry : problem_.symmetries) check_symmetry(symmetry);
     for (const LoadInput& load : problem_.loads) check_load(load);
@@ -278,6 +279,24 @@ class ProblemChecker {
             fmt::format("the point ({:g}, {:g}) m is outside the grid", crack.points[k][0], crack.points[k][1]), grid_text(),
             "move the point or enlarge the grid");
     if (crack.arc) check_arc(*crack.arc);
+  }
+
+  void check_nucleation(const NucleationInput& nucleation) {
+    for (std::size_t k = 0; k < nucleation.materials.size(); ++k)
+      check_reference(nucleation, fmt::format("materials[{}]", k), nucleation.materials[k], problem_.materials, "material");
+    if (broken(nucleation)) return;
+    if (dimension() == 3) {
+      add(nucleation, "", "cracks that start in three dimensions", "cracks are lines in the plane",
+          "remove it, or choose a plane analysis");
+      return;
+    }
+    check_shape(nucleation, "region", nucleation.region);
+    if (!problem_.fracture)
+      add(nucleation, "", fmt::format("the nucleation \"{}\" makes cracks, but there is no [fracture]", nucleation.name),
+          "what tips are and whether they grow follows from [fracture]", "add [fracture]");
+    if (!broken("time") && problem_.time.end && nucleation.start >= *problem_.time.end)
+      add(nucleation, "start", fmt::format("cracks may start from {:g} s on", nucleation.start),
+          fmt::format("the run ends at {:g} s", *problem_.time.end), "let them start earlier");
   }
 
   // Segments far below a cell show nothing that nodes can tell apart, and each costs time in every step.

@@ -1,5 +1,7 @@
 #include "crampon/input/crack_tables.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "crampon/geometry/shapes.hpp"
@@ -139,6 +141,43 @@ const Declaration<FractureInput>& fracture_declaration() {
               diagnostics.add("inner_radius",
                               fmt::format("the disk begins to end at {:g} cells and ends at {:g}", in.inner_radius, in.outer_radius),
                               "sums over particles need some rows of them between", "let it be at most 0.8 of outer_radius");
+          });
+  return d;
+}
+
+const Declaration<NucleationInput>& nucleation_declaration() {
+  static const auto d =
+      Declaration<NucleationInput>(
+          "nucleation",
+          "Cracks that start as straight lines where the largest principal stress passes a strength (2D), across that stress. "
+          "They are called NAME.1, NAME.2 and so on. It needs [fracture].")
+          .name("name", &NucleationInput::name, "what output calls the cracks, with a dot and a number")
+          .quantity("strength", &NucleationInput::strength, "Pa", Bounds::positive(),
+                    "a crack starts where the largest principal stress in the plane, of the mean over the radius, is as large", required)
+          .text("materials", &NucleationInput::materials, "names of the materials in which cracks start; left out: all")
+          .quantity("radius", &NucleationInput::radius, "1", Bounds::from_above(0, 5),
+                    "cells about a particle over which stress is averaged, with a weight that falls smoothly to the rim: over particles of "
+                    "these materials that belong to one piece with it")
+          .quantity("length", &NucleationInput::length, "1", Bounds::between(1, 100),
+                    "of a new crack, cells; about a tip 3 cells must be free, or it has no J")
+          .quantity("distance", &NucleationInput::distance, "1", Bounds::positive(),
+                    "cells from the centre of a new crack to other cracks and to symmetry planes, at least; left out: twice the length")
+          .one_of("region", &NucleationInput::region, shapes,
+                  "cracks start only at particles that were in this region at the start of the run; left out: everywhere")
+          .integer("most", &NucleationInput::most, Bounds::between(0, 1000), "how many cracks may start")
+          .quantity("start", &NucleationInput::start, "s", Bounds::non_negative(), "no crack starts before")
+          .one_of("contact", &NucleationInput::contact, contact_laws, "what the faces of the cracks do when they meet")
+          .one_of("traction", &NucleationInput::traction, traction_laws,
+                  "tractions between the faces as they open: cohesion, bridging, pressure")
+          .record("growth", &NucleationInput::growth, growth_declaration,
+                  "when the tips of the cracks grow, where to and how fast; left out: they stay")
+          .check([](const NucleationInput& in, Diagnostics& diagnostics) {
+            const double least = std::max(in.length + 1, in.radius);
+            if (in.least_distance() < least)
+              diagnostics.add(
+                  "distance", fmt::format("new cracks may start {:g} cells from another crack", in.least_distance()),
+                  fmt::format("they are {:g} cells long and could cross it, and stress is averaged over {:g} cells", in.length, in.radius),
+                  fmt::format("make it at least {:g}", least));
           });
   return d;
 }

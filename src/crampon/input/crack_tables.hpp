@@ -1,5 +1,5 @@
 #pragma once
-/// Declarations of the input's tables about cracks: [[crack]] with its arc and its growth, and [fracture].
+/// Declarations of the input's tables about cracks: [[crack]] with its arc and its growth, [fracture], and [[nucleation]].
 
 #include "crampon/input/problem.hpp"
 
@@ -7,5 +7,6 @@ namespace crampon {
 
 const Declaration<CrackInput>& crack_declaration();
 const Declaration<FractureInput>& fracture_declaration();
+const Declaration<NucleationInput>& nucleation_declaration();
 
 }  // namespace crampon

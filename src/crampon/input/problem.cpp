@@ -367,6 +367,7 @@ const Declaration<Problem>& problem_declaration() {
                             .records("contact_pair", &Problem::contact_pairs, contact_pair_declaration, "what two bodies do when they meet")
                             .records("crack", &Problem::cracks, crack_declaration, "explicit cracks")
                             .record("fracture", &Problem::fracture, fracture_declaration, "J and stress intensities at tips of cracks")
+                            .records("nucleation", &Problem::nucleations, nucleation_declaration, "cracks that start where stress is high")
                             .records("boundary", &Problem::boundaries, boundary_declaration, "prescribed velocities")
                             .records("symmetry", &Problem::symmetries, symmetry_declaration, "mirror planes")
                             .records("load", &Problem::loads, load_declaration, "forces")

@@ -200,6 +200,24 @@ struct CrackInput : Located {
   std::optional<GrowthInput> growth;
 };
 
+/// [[nucleation]]: cracks that start where stress passes a strength. 2D.
+struct NucleationInput : Located {
+  std::string name;                    ///< the cracks are NAME.1, NAME.2, ...
+  std::vector<std::string> materials;  ///< in which they start; empty: in all
+  double strength = 0;                 ///< Pa
+  double radius = 2;                   ///< over which stress is averaged, cells
+  double length = 4;                   ///< of a new crack, cells
+  std::optional<double> distance;      ///< from its centre to other cracks at least, cells; none: twice the length
+  RegionPtr region;                    ///< in which they start, by places in the undeformed bodies; none: everywhere
+  std::int64_t most = 1;               ///< how many there may be
+  double start = 0;                    ///< s
+  ContactLawSpec contact;
+  TractionLawSpec traction;
+  std::optional<GrowthInput> growth;
+
+  double least_distance() const { return distance.value_or(2 * length); }  ///< cells
+};
+
 /// [fracture]: J and stress intensities at the tips of cracks. 2D.
 struct FractureInput : Located {
   double inner_radius = 3, outer_radius = 6;  ///< of the domain, cells
@@ -291,6 +309,7 @@ struct Problem : Located {
   std::vector<ContactPairInput> contact_pairs;
   std::vector<CrackInput> cracks;
   std::optional<FractureInput> fracture;
+  std::vector<NucleationInput> nucleations;
   std::vector<BoundaryInput> boundaries;
   std::vector<SymmetryInput> symmetries;
   std::vector<LoadInput> loads;

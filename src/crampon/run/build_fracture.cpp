@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
+#include "crampon/run/build_nucleation.hpp"
 #include "crampon/step/tip_frame.hpp"
 
 namespace crampon {
@@ -22,6 +24,9 @@ double rayleigh_speed(const Model<2>& model) {
   return fastest;
 }
 
+/// Of half a cell, s: between two looks at what may grow or start. h: cell, m; rayleigh: m/s.
+double time_to_pass(double h, double rayleigh) { return 0.5 * h / rayleigh; }
+
 /// h: cell, m; rayleigh: m/s.
 GrowthModel build_growth(const GrowthInput& in, double h, double rayleigh) {
   GrowthModel out;
@@ -34,7 +39,7 @@ GrowthModel build_growth(const GrowthInput& in, double h, double rayleigh) {
   out.by_rate = in.speed_by_drive;
   if (in.largest_growth) out.largest_growth = *in.largest_growth;
   out.start = in.start;
-  out.interval = 0.5 * h / rayleigh;
+  out.interval = time_to_pass(h, rayleigh);
   out.release = in.release * h;
   out.bridged = in.bridged;
   out.resistance.grown = in.r_curve_growth, out.resistance.factor = in.r_curve_factor;
@@ -55,7 +60,7 @@ std::vector<bool> loaded_particles(const Model<2>& model, std::size_t count) {
 
 }  // namespace
 
-void build_fracture(const Problem& problem, std::size_t particles, Model<2>& model, State<2>& state) {
+void build_fracture(const Problem& problem, const BuiltBodies<2>& bodies, Model<2>& model, State<2>& state) {
   if (!problem.fracture) return;
   const FractureInput& in = *problem.fracture;
   FractureModel& fracture = model.fracture;
@@ -65,19 +70,32 @@ void build_fracture(const Problem& problem, std::size_t particles, Model<2>& mod
   double fastest = 0;
   for (const Material<2>& m : model.materials) fastest = std::fmax(fastest, m.law->wave_speed(model.stress_state));
   fracture.interval = in.interval.value_or(fracture.outer * model.grid.smallest_cell() / fastest);
-  fracture.loaded = loaded_particles(model, particles);
-  for (const CrackInput& crack : problem.cracks)
-    model.growth.push_back(crack.growth ? build_growth(*crack.growth, model.grid.largest_cell(), rayleigh_speed(model)) : GrowthModel{});
+  fracture.loaded = loaded_particles(model, bodies.particles.size());
+  const double h = model.grid.largest_cell(), rayleigh = rayleigh_speed(model);
+  const auto growth_of = [&](const std::optional<GrowthInput>& growth) {
+    return growth ? build_growth(*growth, h, rayleigh) : GrowthModel{};
+  };
+  for (const CrackInput& crack : problem.cracks) model.growth.push_back(growth_of(crack.growth));
+  for (const NucleationInput& nucleation : problem.nucleations) {
+    const auto first = static_cast<std::uint32_t>(model.growth.size());
+    model.nucleations.push_back(build_nucleation(problem, nucleation, bodies, model, time_to_pass(h, rayleigh), first));
+    model.growth.insert(model.growth.end(), static_cast<std::size_t>(nucleation.most), growth_of(nucleation.growth));
+    state.fracture.nucleations.emplace_back().next = nucleation.start;
+  }
   for (std::size_t c = 0; c < state.cracks.size(); ++c) {
     const Crack<2>& crack = state.cracks.list[c];
     if (crack.closed) continue;
     for (const std::size_t end : {0, 1}) {
-      const std::size_t v = end == 0 ? 0 : crack.plane.size() - 1;
-      if (crack.extension[end] > 0 || crack.mirrored[end] != 0 || !state.observed.cracked[c][v]) continue;
       CrackTip tip;
       tip.crack = static_cast<std::uint32_t>(c);
       tip.end = static_cast<std::uint8_t>(end);
-      tip.initial = original_frame(model, crack, tip).ahead;
+      if (crack.plane.empty()) {
+        tip.status = TipStatus::unborn;
+      } else {
+        const std::size_t v = end == 0 ? 0 : crack.plane.size() - 1;
+        if (crack.extension[end] > 0 || crack.mirrored[end] != 0 || !state.observed.cracked[c][v]) continue;
+        tip.initial = original_frame(model, crack, tip).ahead;
+      }
       state.fracture.tips.push_back(tip);
     }
   }

@@ -1,13 +1,11 @@
 #pragma once
-#include <cstddef>
 
-#include "crampon/input/problem.hpp"
+#include "crampon/run/build_bodies.hpp"
 #include "crampon/state/state.hpp"
-#include "crampon/step/model.hpp"
 
 namespace crampon {
 
-/// [fracture], and growth of cracks: the model of both, and the tips that lie in a body. After cracks and loads. particles: how many there are.
-void build_fracture(const Problem& problem, std::size_t particles, Model<2>& model, State<2>& state);
+/// [fracture], growth of cracks and [[nucleation]]: the models, and the tips that lie in a body or may come to lie in one. After cracks and loads.
+void build_fracture(const Problem& problem, const BuiltBodies<2>& bodies, Model<2>& model, State<2>& state);
 
 }  // namespace crampon

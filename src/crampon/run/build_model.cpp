@@ -12,6 +12,7 @@
 #include "crampon/run/build_contact.hpp"
 #include "crampon/run/build_fracture.hpp"
 #include "crampon/run/build_loads.hpp"
+#include "crampon/run/build_nucleation.hpp"
 #include "crampon/run/crack_ends.hpp"
 #include "crampon/run/initial_stress.hpp"
 #include "crampon/run/surfaces_at_start.hpp"
@@ -205,6 +206,7 @@ void build_cracks(const Problem& problem, const BuiltBodies<2>& bodies, BuiltMod
     out.state.observed.cracked.push_back(between_material(crack, material));
     out.state.cracks.list.push_back(std::move(crack));
   }
+  for (const NucleationInput& in : problem.nucleations) reserve_cracks(problem, in, model, out.state, errors);
 }
 
 template <int Dim>
@@ -302,7 +304,7 @@ BuiltModel<Dim> build_model(const Problem& problem, int threads) {
   build_contact(problem, model, out.state, errors);
   if constexpr (Dim == 2) build_cracks(problem, bodies, out, errors);
   if (errors.empty()) build_loads(problem, bodies, out.state.cracks, model, errors);
-  if constexpr (Dim == 2) build_fracture(problem, bodies.particles.size(), model, out.state);
+  if constexpr (Dim == 2) build_fracture(problem, bodies, model, out.state);
   if (!errors.empty()) throw InputError(std::move(errors));
   place_particles(bodies, model, out.state);
   start_face_loads(out.state, out.work, model);

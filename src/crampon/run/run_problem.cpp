@@ -94,7 +94,8 @@ class Recorder {
     const Precision precision = problem_.output.full_precision ? Precision::full : Precision::single;
     Frames frames;
     frames.particles = simulation_.particles(problem_.output.quantities, precision);
-    if (!problem_.cracks.empty()) frames.cracks = simulation_.cracks();
+    CrackFrame cracks = simulation_.cracks();
+    if (!cracks.names.empty()) frames.cracks = std::move(cracks);  // none has started yet
     // Before the first step nodes hold nothing.
     if (problem_.output.grid && simulation_.steps_done() > 0) frames.grid = simulation_.nodes();
     last_frame_ = simulation_.steps_done();

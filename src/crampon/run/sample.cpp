@@ -134,6 +134,7 @@ CrackFrame sample_cracks<2>(const State<2>& state, const StepWork<2>& work, cons
     frame.fields.push_back({q.name, q.unit, 1, {}});
   }
   for (std::size_t c = 0; c < state.cracks.size(); ++c) {
+    if (state.cracks.list[c].plane.empty()) continue;
     const Crack<2> crack = present_crack(state, work, state.cracks.list[c]);
     const std::vector<CrackOpening> openings = openings_of(crack);
     frame.names.push_back(crack.name);

@@ -87,8 +87,10 @@ class Engine final : public Simulation {
     s.cells = 1;
     for (int k = 0; k < Dim; ++k) s.cells *= model_.grid.cells[k];
     s.active_cells = active_cells();
-    s.cracks = static_cast<std::int64_t>(state_.cracks.size());
-    for (const auto& c : state_.cracks.list) s.crack_segments += static_cast<std::int64_t>(c.facets.size());
+    for (const auto& c : state_.cracks.list) {
+      s.cracks += c.plane.empty() ? 0 : 1;
+      s.crack_segments += static_cast<std::int64_t>(c.facets.size());
+    }
     s.time_step = longest_step();
     s.steps = time_.steps ? *time_.steps : static_cast<std::int64_t>(std::ceil(end_ / s.time_step - 1e-9));
     const double blocks = static_cast<double>(s.active_cells) / block_nodes<Dim>;
@@ -178,16 +180,32 @@ class Engine final : public Simulation {
                                                                     : reason(tip.now.no_J);
         out.push_back(fmt::format("{} of {} looks found no J {}: {}; a disk of {:g} cells about the tip must be free", tip.missed,
                                   tip.missed + tip.found, where, why, std::fmin(FractureModel::least_outer, model_.fracture.outer)));
-      } else if (tip.now.no_K != NoParameter::none) {
+      } else if (tip.now.no_J == NoParameter::none && tip.now.no_K != NoParameter::none) {
         out.push_back(fmt::format("there is J but no K {}: {}", where, reason(tip.now.no_K)));
       }
     }
+    for (std::size_t n = 0; n < model_.nucleations.size(); ++n) tell_nucleation(model_.nucleations[n], state_.fracture.nucleations[n], out);
     if (state_.ledger.removed > 0) out.push_back(fmt::format("{} particles left the grid and were removed", state_.ledger.removed));
     if (auto note = tell_large_stretch(state_, model_)) out.push_back(std::move(*note));
     return out;
   }
 
  private:
+  /// Why no crack has started, and where none could.
+  static void tell_nucleation(const NucleationModel& model, const NucleationState& state, std::vector<std::string>& out) {
+    if (model.most > 0 && state.made == 0 && std::isfinite(state.highest)) {
+      out.push_back(
+          fmt::format("no crack of the nucleation \"{}\" has started: the largest principal stress of a particle was {:.4g} Pa, the "
+                      "strength is {:.4g} Pa, of a mean over {:.4g} m",
+                      model.name, state.highest, model.strength, model.radius));
+    }
+    if (state.at_mirror) {
+      out.push_back(fmt::format(
+          "stress passed the strength of the nucleation \"{}\" within {:.4g} m of a symmetry plane, where no crack starts; take "
+          "the whole body instead",
+          model.name, model.distance));
+    }
+  }
   /// Is all at rest, and has been for the period asked for?
   bool rests() const {
     return time_.stop_at_rest && state_.clock.time - state_.clock.rests_since >= time_.stop_at_rest->period * (1 - 1e-12);

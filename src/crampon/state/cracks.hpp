@@ -79,7 +79,7 @@ struct Crack {
   std::string name;
   bool fixed = false;              ///< the plane stays where it is
   bool closed = false;             ///< 2D: the last vertex equals the first: no tips
-  std::vector<Vec<Dim>> plane;     ///< present vertices, m
+  std::vector<Vec<Dim>> plane;     ///< present vertices, m; none: the crack has not started
   std::vector<Vec<Dim>> upper;     ///< points of the upper surface, m
   std::vector<Vec<Dim>> lower;     ///< points of the lower surface, m
   std::vector<Vec<Dim>> original;  ///< vertices at the start, m

@@ -56,6 +56,7 @@ enum class TipStatus : std::uint8_t {
   joined,    ///< it has met another crack, or its own path
   left,      ///< ... the edge of the body
   arrested,  ///< it has grown as far as it may
+  unborn,    ///< its crack has not started (docs/theory/fracture.md, nucleation)
 };
 /// As users meet them, in the order of their numbers.
 struct TipStatusWord {
@@ -67,6 +68,7 @@ inline constexpr std::array tip_status_words = {
     TipStatusWord{"joined", "it has met a crack"},
     TipStatusWord{"left", "it has met the edge of the body"},
     TipStatusWord{"arrested", "it has grown as far as it may"},
+    TipStatusWord{"unborn", "its crack has not started"},
 };
 
 /// What is found at a tip.
@@ -135,19 +137,38 @@ struct CrackTip {
   }
 };
 
+/// What has become of a [[nucleation]].
+struct NucleationState {
+  std::int64_t made = 0;                                      ///< cracks
+  double next = 0;                                            ///< when stress is looked at, s
+  double highest = -std::numeric_limits<double>::infinity();  ///< largest principal stress of a particle, at looks so far, Pa
+  bool at_mirror = false;                                     ///< stress has passed the strength too near to a symmetry plane
+
+  template <class Self, class Visit>
+  static void for_members(Self& self, Visit&& visit) {
+    auto& [made, next, highest, at_mirror] = self;
+    visit(Member{"made"}, made);
+    visit(Member{"next", "s"}, next);
+    visit(Member{"highest", "Pa"}, highest);
+    visit(Member{"at_mirror"}, at_mirror);
+  }
+};
+
 struct Fracture {
   std::vector<CrackTip> tips;
   double next = 0;      ///< when parameters are due, s
   double released = 0;  ///< J times the area by which tips have grown, J
   double taken = 0;     ///< by faces that part as tips grow, J
+  std::vector<NucleationState> nucleations;
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [tips, next, released, taken] = self;
+    auto& [tips, next, released, taken, nucleations] = self;
     visit(Member{"released", "J"}, released);
     visit(Member{"taken", "J"}, taken);
     visit(Member{"tips"}, tips);
     visit(Member{"next", "s"}, next);
+    visit(Member{"nucleations"}, nucleations);
   }
 };
 

@@ -70,17 +70,17 @@ struct CohesiveTotals {
   }
 };
 
-/// A vertex whose traction law has failed, or a tip that has grown or come to an end.
+/// A vertex whose traction law has failed, a tip that has grown or come to an end, or a crack that has started.
 template <int Dim>
 struct CrackEvent {
-  enum class Kind : std::uint8_t { failed, grew, joined, left, arrested };
+  enum class Kind : std::uint8_t { failed, grew, joined, left, arrested, nucleated };
   double time = 0;  ///< s
   std::uint64_t crack = 0;
   Vec<Dim> x;                ///< m
   double G_I = 0, G_II = 0;  ///< failed: dissipated there, J/m2
   Kind kind = Kind::failed;
   std::uint8_t end = 0;      ///< of the crack, 0: start, 1: end
-  double angle = 0;          ///< by which it turned to the left, rad
+  double angle = 0;          ///< by which it turned to the left; nucleated: from the x axis to the crack; rad
   double speed = 0;          ///< m/s
   double J = 0;              ///< J/m2
   double K_I = 0, K_II = 0;  ///< Pa sqrt(m)

@@ -30,6 +30,7 @@ struct Whether {
   static bool cracks_bear_tractions(S, W, M m) { return m.any_tractions() || m.any_growth(); }
   static bool there_are_cracks(S s, W, M) { return !s.cracks.empty(); }
   static bool growth_is_due(S, W w, M) { return w.now.growth_due; }
+  static bool nucleation_is_due(S, W w, M) { return w.now.nucleation_due; }
   static bool fracture_is_due(S, W w, M) { return w.now.fracture_due; }
   static bool pieces_turn(S s, W, M) { return s.pieces.any(); }
 
@@ -78,6 +79,16 @@ double next_growth_check(const State<Dim>& state, const Model<Dim>& model) {
   return next;
 }
 
+/// When stress is looked at for the next crack, s.
+template <int Dim>
+double next_nucleation_check(const State<Dim>& state, const Model<Dim>& model) {
+  double next = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < model.nucleations.size(); ++n) {
+    if (state.fracture.nucleations[n].made < model.nucleations[n].most) next = std::fmin(next, state.fracture.nucleations[n].next);
+  }
+  return next;
+}
+
 template <int Dim>
 void begin_step(const State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, double dt, Watched watched) {
   StepValues& now = work.now;
@@ -85,6 +96,7 @@ void begin_step(const State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& 
   now.watched = watched == Watched::yes;
   const double end = state.clock.time + dt * (1 + 1e-9);
   now.growth_due = end >= next_growth_check(state, model);
+  now.nucleation_due = end >= next_nucleation_check(state, model);
   now.fracture_due = model.fracture.on && !state.fracture.tips.empty() && (now.watched || now.growth_due || end >= state.fracture.next);
   now.lead = position_lead(model, dt);
   now.further = now.lead - state.particles.lead;
@@ -230,7 +242,7 @@ std::vector<Stage<Dim>> stages() {
 
       // Task 8
       once<Dim, move_cracks<Dim>, update_tractions<Dim>, fade_tractions<Dim>>("move cracks", If::there_are_cracks,
-                                                         {motion | momenta | fields, none, cracks | tractions}),
+                                                                              {motion | momenta | fields, none, cracks | tractions}),
       once<Dim, end_rigid_motion<Dim>, close_step<Dim>, close_ledger<Dim>, check_health<Dim, Shape>>(
           "close the step", always, {books | motion, none, order | motion | cracks | prescribed | rigid}),
 
@@ -239,6 +251,8 @@ std::vector<Stage<Dim>> stages() {
                                                {tips | motion | stress | cracks | tractions | prescribed, none, tips}),
       once<Dim, grow_cracks<Dim, Shape>>("fracture", If::growth_is_due,
                                          {tips | momenta | motion | cracks, none, cracks | tractions | tips}),
+      once<Dim, nucleate_cracks<Dim, Shape>>("fracture", If::nucleation_is_due,
+                                             {motion | stress | momenta | cracks, none, cracks | tractions | tips}),
   };
 }
 

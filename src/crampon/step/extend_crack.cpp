@@ -88,4 +88,22 @@ void extend_crack(State<2>& state, StepWork<2>& work, const Model<2>& model, con
     lay_tractions(crack, tip, places.size(), model.tractions[tip.crack].thickness);
 }
 
+void start_crack(State<2>& state, StepWork<2>& work, const Model<2>& model, std::uint32_t number, const std::vector<Vec<2>>& places,
+                 int reach) {
+  Crack<2>& crack = state.cracks.list[number];
+  const std::size_t count = places.size();
+  crack.plane = crack.upper = crack.lower = crack.original = places;
+  crack.upper_carriers.resize(count), crack.lower_carriers.resize(count);
+  crack.facets = path_facets(count);
+  state.observed.cracked[number].assign(count, true);
+  view_cracks(state, work, model, reach);
+  CrackTip end;
+  end.crack = number;
+  choose_anew(state, work, model, end, count);
+  if (!model.tractions[number].acts()) return;
+  crack.traction = {std::vector<double>(count), std::vector<TractionHistory>(count), std::vector<Vec<2>>(count), std::vector<double>(count),
+                    std::vector<bool>(count, true)};
+  lay_tractions(crack, end, count - 1, model.tractions[number].thickness);
+}
+
 }  // namespace crampon

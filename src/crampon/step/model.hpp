@@ -23,6 +23,7 @@
 #include "crampon/step/fracture_model.hpp"
 #include "crampon/step/growth_model.hpp"
 #include "crampon/step/loaded_faces.hpp"
+#include "crampon/step/nucleation_model.hpp"
 #include "crampon/step/transfer.hpp"
 
 namespace crampon {
@@ -103,6 +104,7 @@ struct Model {
   std::vector<CrackTraction> tractions;  ///< per crack
   FractureModel fracture;
   std::vector<GrowthModel> growth;  ///< per crack
+  std::vector<NucleationModel> nucleations;
   std::vector<VelocityCondition<Dim>> conditions;
   std::vector<SymmetryPlane> symmetries;
   std::vector<Load<Dim>> loads;

@@ -129,13 +129,14 @@ struct Phase {
 
 /// What holds for the whole of a step: set before its first stage (step/advance.cpp), and what is prescribed by the stage "prescribe".
 struct StepValues {
-  double dt = 0;              ///< s
-  double lead = 0;            ///< of positions before the time of the step, s
-  double further = 0;         ///< by which they lead more than in the last step, s
-  double stress_dt = 0;       ///< over which a stress update of the step strains, s
-  bool watched = false;       ///< someone will look at the state after the step
-  bool growth_due = false;    ///< tips may grow
-  bool fracture_due = false;  ///< fracture parameters are found at its end
+  double dt = 0;                ///< s
+  double lead = 0;              ///< of positions before the time of the step, s
+  double further = 0;           ///< by which they lead more than in the last step, s
+  double stress_dt = 0;         ///< over which a stress update of the step strains, s
+  bool watched = false;         ///< someone will look at the state after the step
+  bool growth_due = false;      ///< tips may grow
+  bool nucleation_due = false;  ///< cracks may start
+  bool fracture_due = false;    ///< fracture parameters are found at its end
   StepTransfer transfer;
   VelocityRule rule;
   int term = 1;  ///< of the series of a transfer

@@ -5,16 +5,11 @@
 #include <limits>
 #include <vector>
 
+#include "crampon/geometry/segment.hpp"
+
 namespace crampon {
 
 namespace {
-
-double distance_to_segment(const Vec<2>& x, const Vec<2>& a, const Vec<2>& b) {
-  const Vec<2> along = b - a;
-  const double length2 = dot(along, along);
-  const double s = length2 > 0 ? std::clamp(dot(x - a, along) / length2, 0., 1.) : 0.;
-  return norm(x - a - along * s);
-}
 
 /// Distance from a tip to the nearest place where the body does not fill space: its particles are dealt to a lattice about the tip, of which a node
 /// that lies inside gets the area of a cell.
@@ -65,7 +60,7 @@ double distance_to_cracks(const State<2>& state, const CrackTip& tip, const Vec<
 double distance_to_tips(const State<2>& state, const CrackTip& tip, const Vec<2>& x) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const CrackTip& other : state.fracture.tips) {
-    if (other.crack == tip.crack && other.end == tip.end) continue;
+    if (other.status == TipStatus::unborn || (other.crack == tip.crack && other.end == tip.end)) continue;
     const Crack<2>& crack = state.cracks.list[other.crack];
     nearest = std::fmin(nearest, norm(crack.original[TipVertices(crack, other)[0]] - x));
   }

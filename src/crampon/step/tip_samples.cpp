@@ -46,7 +46,13 @@ Vec<2> opening_at(const Crack<2>& crack, const TipVertices& vertices, const TipF
 std::vector<TipWatch> watch_particles(const State<2>& state, const Model<2>& model) {
   const double reach = (model.fracture.outer + 2) * model.grid.largest_cell();  // and a cell of the lattice that finds edges
   std::vector<Vec<2>> places;
-  for (const CrackTip& tip : state.fracture.tips) places.push_back(original_frame(model, state.cracks.list[tip.crack], tip).tip);
+  std::vector<std::uint32_t> tip_at;  // the number of the tip at a place
+  for (std::size_t t = 0; t < state.fracture.tips.size(); ++t) {
+    const CrackTip& tip = state.fracture.tips[t];
+    if (tip.status == TipStatus::unborn) continue;
+    places.push_back(original_frame(model, state.cracks.list[tip.crack], tip).tip);
+    tip_at.push_back(static_cast<std::uint32_t>(t));
+  }
   struct Seen {
     std::uint32_t tip;
     WatchedParticle particle;
@@ -64,13 +70,13 @@ std::vector<TipWatch> watch_particles(const State<2>& state, const Model<2>& mod
           if (std::fabs(X[0] - places[t][0]) > reach || std::fabs(X[1] - places[t][1]) > reach || state.particles.is_padding(p)) continue;
           if (!known) PackView<2>(state, model, run.material, k).displacement_gradient(u);
           known = true;
-          of_run[r].push_back({static_cast<std::uint32_t>(t),
-                               {static_cast<std::uint32_t>(p), run.material, state.particles.velocity(p), gradient_of(u, p % lanes)}});
+          of_run[r].push_back(
+              {tip_at[t], {static_cast<std::uint32_t>(p), run.material, state.particles.velocity(p), gradient_of(u, p % lanes)}});
         }
       }
     }
   });
-  std::vector<TipWatch> watches(places.size());
+  std::vector<TipWatch> watches(state.fracture.tips.size());
   for (const auto& seen : of_run) {
     for (const Seen& s : seen) watches[s.tip].particles.push_back(s.particle);
   }

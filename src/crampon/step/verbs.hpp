@@ -379,4 +379,9 @@ void find_fracture_parameters(State<Dim>& state, StepWork<Dim>& work, const Mode
 template <int Dim, class Shape>
 void grow_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
 
+/// Cracks start where the mean of stress passes a strength (docs/theory/fracture.md, nucleation): a crack that had no vertices gets them. Nothing of
+/// particles or nodes is changed.
+template <int Dim, class Shape>
+void nucleate_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model);
+
 }  // namespace crampon

@@ -29,11 +29,14 @@ void view_cracks(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model
   const std::size_t count = state.cracks.size();
   view.cracks = count;
   view.seen.assign(count * (1 + model.symmetries.size()), {});
-  for (std::size_t c = 0; c < count; ++c) view.seen[c] = with_extensions(state.cracks.list[c]);
+  for (std::size_t c = 0; c < count; ++c) {
+    if (!state.cracks.list[c].plane.empty()) view.seen[c] = with_extensions(state.cracks.list[c]);
+  }
   for (std::size_t plane = 0; plane < model.symmetries.size(); ++plane) {
     const double cell = model.grid.cell[static_cast<std::size_t>(model.symmetries[plane].axis)];
     const Mirror<Dim> mirror{model.symmetries[plane], 1e-8 * cell};
     for (std::size_t c = 0; c < count; ++c) {
+      if (view.seen[c].vertices.empty()) continue;  // the crack has not started
       if (join_image(view.seen[c], mirror) || reach == 0 || !comes_near(view.seen[c], mirror, 2 * cell)) continue;
       view.seen[count * (1 + plane) + c] = image_of(view.seen[c], mirror);
     }

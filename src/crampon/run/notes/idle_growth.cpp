@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,14 @@ void note_idle_growth(const Start<Dim>& start, Notes& notes) {
                      any_tip(tips, c, nullptr) ? "growth.ends leaves out the end that lies in a body"
                                                : "both of its ends lie outside of every body, or on a mirror",
                      "let it end inside a body, or remove growth"});
+  }
+  const double least = std::fmin(FractureModel::least_outer, start.model.fracture.outer);
+  for (const NucleationInput& nucleation : start.problem.nucleations) {
+    if (!nucleation.growth || nucleation.length >= least) continue;
+    notes.push_back({nucleation.at("length"),
+                     fmt::format("cracks of the nucleation \"{}\" are {:g} cells long and are to grow", nucleation.name, nucleation.length),
+                     fmt::format("there is J only where {:g} cells about a tip are free, also of the other tip", least),
+                     fmt::format("make length at least {:g}, or remove growth", least + 1)});
   }
 }
 

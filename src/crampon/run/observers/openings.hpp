@@ -40,6 +40,8 @@ class Openings final : public Observer<Dim> {
  private:
   static Extremes extremes_of(const Crack<2>& crack, const std::vector<bool>& cracked) {
     const std::size_t n = crack.plane.size();
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (n == 0) return {none, none, none};  // it has not started
     const auto counts = [&](std::size_t v) { return cracked[v] && (crack.closed || (v > 0 && v + 1 < n)); };
     bool any = false;
     for (std::size_t v = 0; v < n; ++v) any = any || counts(v);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "crampon/step/carrier_choice.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/point_fields.hpp"
@@ -29,7 +31,8 @@ void choose_for_all(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mo
 
 template <int Dim, class Shape>
 void choose_carriers(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model) {
-  if (state.cracks.empty() || !state.cracks.list.front().upper_carriers.empty()) return;
+  const auto& cracks = state.cracks.list;
+  if (std::none_of(cracks.begin(), cracks.end(), [](const Crack<Dim>& c) { return !c.plane.empty() && c.upper_carriers.empty(); })) return;
   view_cracks(state, work, model, cells_beyond<Shape>);
   choose_for_all(state, work, model);
 }

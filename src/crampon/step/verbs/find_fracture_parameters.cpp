@@ -52,6 +52,7 @@ void find_parameters(const State<2>& state, const StepWork<2>& work, const Model
                      CrackTip& tip) {
   const Crack<2>& crack = state.cracks.list[tip.crack];
   TipParameters now;
+  if (tip.status == TipStatus::unborn) return;
   now.speed = speed_of(state, model, tip);
   if (tip.status == TipStatus::joined || tip.status == TipStatus::left) {  // a tip no more
     now.no_J = now.no_K = NoParameter::outside;

@@ -8,9 +8,9 @@
 #include "crampon/crack/criteria/best_angle.hpp"
 #include "crampon/step/crack_images.hpp"
 #include "crampon/step/extend_crack.hpp"
+#include "crampon/step/filled_space.hpp"
 #include "crampon/step/instantiate.hpp"
 #include "crampon/step/particle_view.hpp"
-#include "crampon/step/point_fields.hpp"
 #include "crampon/step/release_faces.hpp"
 #include "crampon/step/tip_frame.hpp"
 #include "crampon/step/tip_room.hpp"
@@ -149,31 +149,6 @@ double way_to_cracks(const State<2>& state, const CrackTip& tip, const Vec<2>& a
   return nearest;
 }
 
-/// Mass about a place over what a body at rest would have there: 1 inside, a half on a straight edge. Of the piece of material of a tip, or of all others.
-double filled(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x, const CrackTip& tip, bool of_others) {
-  const Material<2>& material = model.materials[tip.material];
-  const auto& fields = model.contact.fields;
-  double mass = 0;
-  for (const PointNode<2>& node : PointFields<2>(work, model).nodes(x)) {
-    const BlockLayers<2>& layers = work.nodes.layers[node.block];
-    for (std::size_t l = 0; l < layers.node.size(); ++l) {
-      const MaterialField& field = fields[layers.node[l].field];
-      if (field.ignores_cracks || (field.bonded_to != fields[material.field].bonded_to) != of_others) continue;
-      mass += node.S * work.nodes.momentum[layers.slot(l, node.local)][2];
-    }
-  }
-  return mass / (material.law->density() * model.grid.cell[0] * model.grid.cell[1] * material.thickness);
-}
-
-/// How far a path goes on beyond the edge of its body for those who ask what it cuts, m: as far as lines from particles to nodes reach, but not into others.
-double extension_beyond(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x, const Vec<2>& e, const CrackTip& tip,
-                        double reach) {
-  const double step = 0.25 * model.grid.largest_cell();
-  double length = step;
-  while (length + step <= reach && filled(work, model, x + e * (length + step), tip, true) < 0.05) length += step;
-  return length;
-}
-
 template <int Dim, class Shape>
 void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, CrackTip& tip, const TipWatch& watch, const Growth& g) {
   const GrowthModel& growth = model.growth[tip.crack];
@@ -192,9 +167,10 @@ void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, Crack
     status = TipStatus::joined;
   }
   const Vec<2> end = frame.tip + e * length;
-  if (status != TipStatus::joined && filled(work, model, end, tip, false) < 0.5) {
+  if (status != TipStatus::joined && filled(work, model, end, tip.material) < 0.5) {
     status = TipStatus::left;
-    crack.extension[tip.end] = extension_beyond(work, model, end, e, tip, h * reach_beyond_edges(Shape::reach(largest_half_extent)));
+    crack.extension[tip.end] =
+        extension_beyond(work, model, end, e, tip.material, h * reach_beyond_edges(Shape::reach(largest_half_extent)));
   }
 
   const auto count = static_cast<std::size_t>(std::fmax(1, std::floor(length / normal_segment + 0.25)));
