@@ -31,3 +31,5 @@ run five_disks_friction five_disks_friction contact
 draw five_disks_friction --fringes --frame -1 --output docs/pictures/five_disks_friction.png
 run indenter indenter contact
 draw indenter --quantity stress_xx --frame -1 --output docs/pictures/indenter.png
+run nucleation nucleation fracture
+draw nucleation --quantity stress_yy --magnify 20 --time "400 us" "420 us" "440 us" "480 us" --panel 2x2 --output docs/pictures/nucleation.png
