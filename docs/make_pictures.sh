@@ -64,3 +64,5 @@ draw r_curve --against crack_length.crack --history J_far.crack.end J.crack.end 
   --output docs/pictures/verification/r_curve.png
 run strip_yield strip_yield verification
 draw strip_yield --quantity stress_yy --frame -1 --magnify 100 --window "-1 mm" "30 mm" "-12 mm" "12 mm" --output docs/pictures/verification/strip_yield.png
+run nucleation nucleation fracture
+draw nucleation --quantity stress_yy --magnify 20 --time "400 us" "420 us" "440 us" "480 us" --panel 2x2 --output docs/pictures/nucleation.png

@@ -203,7 +203,7 @@ TEST(Notes, FractureWithoutTips) {
   const auto nucleation = [&](const char* length) { return block + fracture + "[[nucleation]]\nstrength = 1\nlength = " + length + "\n"; };
   EXPECT_EQ(
       note(nucleation("2") + growth + " }\n"),
-      "in.toml:21:10: nucleation[0].length: cracks of the nucleation \"nucleation1\" are 2 cells long and are to grow (there is J only "
+      "in.toml:21:1: nucleation[0].length: cracks of the nucleation \"nucleation1\" are 2 cells long and are to grow (there is J only "
       "where 3 cells about a tip are free, also of the other tip); make length at least 4, or remove growth");
   EXPECT_TRUE(notes(nucleation("2")).empty());
   EXPECT_TRUE(notes(nucleation("3") + growth + " }\n").empty());

@@ -66,6 +66,7 @@ struct Nucleus {
   std::uint32_t slot = 0, material = 0;
   PlaneStress mean;
   double largest = 0;  ///< principal stress of the mean, Pa
+  Vec<2> rise;         ///< points to where the largest principal stresses of particles about it rise
 };
 
 /// What one look at stress sees for a nucleation. The largest principal stress of a mean is at most the mean of the largest principal stresses. So
@@ -92,7 +93,7 @@ class Look {
       });
     };
     for (const std::size_t peak : peaks) {
-      for_near(peak, [&](std::uint32_t slot, std::uint32_t material, double) { found.push_back({slot, material, {}, 0}); });
+      for_near(peak, [&](std::uint32_t slot, std::uint32_t material, double) { found.push_back({slot, material, {}, 0, {}}); });
     }
     const auto id = [&](const Nucleus& n) { return state_.particles.id[n.slot]; };
     std::sort(found.begin(), found.end(), [&](const Nucleus& a, const Nucleus& b) { return id(a) < id(b); });
@@ -100,13 +101,20 @@ class Look {
     std::erase_if(found, [&](const Nucleus& n) { return !may_start_at(n.slot); });
     parallel_for(found.size(), model_.threads, [&](std::size_t i) {
       Nucleus& nucleus = found[i];
-      double weights = 0;
+      double weights = 0, sum = 0;  // of largest principal stresses, and their first moments
+      Vec<2> moment, places;
       for_near(nucleus.slot, [&](std::uint32_t slot, std::uint32_t material, double weight) {
         if (!belong_together(model_, material, nucleus.material)) return;
-        nucleus.mean.add(stress_of(state_, model_, material, slot), weight);
+        const PlaneStress stress = stress_of(state_, model_, material, slot);
+        const Vec<2> from_nucleus = (state_.particles.position(slot) - state_.particles.position(nucleus.slot)) * weight;
+        nucleus.mean.add(stress, weight);
         weights += weight;
+        sum += stress.largest() * weight;
+        moment += from_nucleus * stress.largest();
+        places += from_nucleus;
       });
       nucleus.mean = {nucleus.mean.xx / weights, nucleus.mean.yy / weights, nucleus.mean.xy / weights};
+      nucleus.rise = moment - places * (sum / weights);
       nucleus.largest = nucleus.mean.largest();
     });
     std::erase_if(found, [&](const Nucleus& n) { return !(n.largest >= nucleation_.strength); });
@@ -195,11 +203,20 @@ NewPath lay_path(const StepWork<2>& work, const Model<2>& model, const Vec<2>& x
   return path;
 }
 
+/// The middle of a new crack in the direction e: half a particle's half size beside the particle, to the side where stress rises. Through its middle,
+/// and through those of its row, rounding would decide which of them lie above the crack and which below.
+Vec<2> beside_row(const State<2>& state, const Model<2>& model, const Nucleus& nucleus, const Vec<2>& e) {
+  const HalfSize<2>& half = model.materials[nucleus.material].half_size;
+  const Vec<2> left{{-e[1], e[0]}};
+  const double aside = 0.5 * std::fmin(half[0] * model.grid.cell[0], half[1] * model.grid.cell[1]);
+  return state.particles.position(nucleus.slot) + left * std::copysign(aside, dot(nucleus.rise, left));
+}
+
 template <class Shape>
 void start_at(State<2>& state, StepWork<2>& work, const Model<2>& model, const NucleationModel& nucleation, std::uint32_t number,
               const Nucleus& nucleus) {
   const double h = model.grid.largest_cell();
-  const Vec<2> x = state.particles.position(nucleus.slot), e = nucleus.mean.across_largest();
+  const Vec<2> e = nucleus.mean.across_largest(), x = beside_row(state, model, nucleus, e);
   const NewPath path = lay_path(work, model, x, e, nucleus.material, nucleation.length);
   const double length = path.way[0] + path.way[1];
   const auto segments = static_cast<std::size_t>(std::fmax(2, std::round(length / (0.5 * h))));
@@ -221,7 +238,7 @@ void start_at(State<2>& state, StepWork<2>& work, const Model<2>& model, const N
   CrackEvent<2> event;
   event.time = state.clock.time;
   event.crack = number;
-  event.x = x;
+  event.x = state.particles.position(nucleus.slot);
   event.kind = CrackEvent<2>::Kind::nucleated;
   event.angle = std::atan2(e[1], e[0]);
   state.ledger.events.push_back(event);
