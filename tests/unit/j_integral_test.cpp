@@ -446,6 +446,38 @@ TEST(TipPath, SidesFollowBends) {
   EXPECT_LT(straight.direction({{-1, -1e-9}}), -3.14);
 }
 
+TEST(VirtualExtension, RunsAlongFacesAndLeavesCornersBehind) {
+  // A path that turns by 60 degrees five cells behind the tip.
+  const double turn = std::numbers::pi / 3;
+  const Vec<2> corner{{-5, 0}}, far{{-5 - 10 * std::cos(turn), 10 * std::sin(turn)}};
+  const TipPath path({Vec<2>{}, corner, far});
+  const VirtualExtension extension(TipWeight(4, 9), path, 1);
+  EXPECT_NEAR(norm(extension.at({{1e-6, 0}}).q - Vec<2>{{1, 0}}), 0, 1e-9);
+  EXPECT_LT(norm(extension.at(corner).q), 1e-3) << "a corner stays; it was found to an eighth of a cell";
+  EXPECT_EQ(norm(extension.at({{9, 1}}).q), 0);
+  // Along the faces more than a cell and a half from the corner.
+  for (const double s : {2., 3., 3.9}) {
+    const Vec<2> way = normalized(corner - far), place = corner - way * s, q = extension.at(place).q;
+    EXPECT_GT(norm(q), 0);
+    EXPECT_LT(std::fabs(cross(normalized(q), way)), 1e-2) << s;
+    EXPECT_NEAR(norm(q), extension.on_path(norm(place)), 1e-3) << "places on the path are interpolated";
+  }
+  for (const double x : {-1., -2., -3.4}) EXPECT_LT(std::fabs(extension.at({{x, 0}}).q[1]), 1e-12) << x;
+  // The gradient is that of q.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-8, 8);
+  for (int i = 0; i < 300; ++i) {
+    const Vec<2> x{{number(random), number(random)}};
+    const VirtualExtension::Shift shift = extension.at(x);
+    for (std::size_t j = 0; j < 2; ++j) {
+      Vec<2> step;
+      step[j] = 1e-7;
+      const Vec<2> slope = (extension.at(x + step).q - extension.at(x - step).q) * (0.5 / step[j]);
+      for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(shift.gradient[k][j], slope[k], 1e-5) << x[0] << ' ' << x[1];
+    }
+  }
+}
+
 TEST(TipFrame, TurnsVectorsAndTensors) {
   const TipFrame frame({{3, 4}}, {{2, 3}});
   EXPECT_NEAR(frame.ahead[0], std::sqrt(0.5), 1e-15);

@@ -30,7 +30,10 @@ double turn(const TipPath& path, double r, double cell) {
 VirtualExtension::VirtualExtension(const TipWeight& weight, const TipPath& path, double cell)
     : weight_(weight), spacing_(cell / per_cell), around_corner_(radius_of_corner * cell) {
   const auto count = static_cast<std::size_t>(std::ceil(weight.outer() / spacing_)) + 2;
-  for (std::size_t k = 0; k < count; ++k) along_.push_back(chord(path, static_cast<double>(k) * spacing_, cell));
+  for (std::size_t k = 0; k < count; ++k) {
+    const double r = static_cast<double>(k) * spacing_;
+    path_.push_back(on(path, r)), along_.push_back(chord(path, r, cell));
+  }
   double sharpest = 0;  // of the bend that is being passed
   for (double r = nearest_corner * cell; r < weight.outer() + around_corner_; r += spacing_) {
     const double here = turn(path, r, cell);
@@ -80,15 +83,11 @@ VirtualExtension::Shift VirtualExtension::at(const Vec<2>& place) const {
 }
 
 double VirtualExtension::on_path(double r) const {
-  double size = weight_.at(r);
-  if (!corners_.empty()) {
-    // The path lies near enough to where corners were looked for.
-    double nearest = around_corner_;
-    for (const Vec<2>& corner : corners_) nearest = std::fmin(nearest, std::fabs(norm(corner) - r));
-    const double s = nearest / around_corner_;
-    size *= s * s * (3 - 2 * s);
-  }
-  return size;
+  const double w = weight_.at(r);
+  if (corners_.empty() || w == 0) return w;
+  const double at = r / spacing_;
+  const auto k = std::min(static_cast<std::size_t>(at), path_.size() - 2);
+  return w * beside_corners(path_[k] + (path_[k + 1] - path_[k]) * (at - static_cast<double>(k))).value;
 }
 
 }  // namespace crampon

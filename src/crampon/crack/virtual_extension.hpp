@@ -39,6 +39,7 @@ class VirtualExtension {
   Direction direction(double r) const;
 
   TipWeight weight_;
+  std::vector<Vec<2>> path_;     ///< places on the path at multiples of spacing_, m
   std::vector<Vec<2>> along_;    ///< directions of the path at multiples of spacing_; empty: it is straight
   double spacing_ = 0;           ///< m
   std::vector<Vec<2>> corners_;  ///< m
