@@ -179,7 +179,7 @@ struct GrowthInput : Located {
   bool speed_by_drive = false;                         ///< largest_speed (1 - 1/drive)
   std::optional<double> largest_growth;                ///< m
   double start = 0;                                    ///< s
-  double release = 1;                                  ///< cells that a tip goes on while the faces behind it come free
+  double release = 2;                                  ///< cells that a tip goes on while the faces behind it come free
   bool bridged = false;                                ///< the crack's traction law acts on what grows
   std::vector<double> r_curve_growth, r_curve_factor;  ///< m, 1
   std::optional<double> rate_speed;                    ///< m/s
