@@ -31,3 +31,15 @@ run five_disks_friction five_disks_friction contact
 draw five_disks_friction --fringes --frame -1 --output docs/pictures/five_disks_friction.png
 run indenter indenter contact
 draw indenter --quantity stress_xx --frame -1 --output docs/pictures/indenter.png
+
+# Fracture at rest (docs/pictures/verification).
+for row in single_edge_crack bend_specimen compact_tension clamped_strip pressurised_crack end_notched_flexure spinning_ring; do run $row $row verification; done
+run brazilian brazilian fracture
+draw single_edge_crack --quantity stress_yy --frame -1 --magnify 30 --window "-5 mm" "35 mm" "-25 mm" "25 mm" --width 500 --output docs/pictures/verification/single_edge_crack.png
+draw bend_specimen --quantity stress_xx --frame -1 --magnify 30 --width 800 --output docs/pictures/verification/bend_specimen.png
+draw compact_tension --quantity stress_yy --frame -1 --magnify 100 --width 600 --output docs/pictures/verification/compact_tension.png
+draw clamped_strip --quantity stress_yy --time "20 us" "80 us" "160 us" --panel 3x1 --magnify 100 --width 600 --output docs/pictures/verification/clamped_strip.png
+draw pressurised_crack --quantity stress_yy --frame -1 --magnify 200 --window 0 "60 mm" "-50 mm" "50 mm" --width 500 --output docs/pictures/verification/pressurised_crack.png
+draw brazilian --quantity stress_xx --frame -1 --magnify 2000 --range "-10 MPa" "10 MPa" --width 600 --output docs/pictures/verification/brazilian.png
+draw end_notched_flexure --quantity stress_xx --frame -1 --magnify 100 --width 800 --output docs/pictures/verification/end_notched_flexure.png
+draw spinning_ring --quantity von_mises --frame 1 3 5 7 --panel 2x2 --width 500 --output docs/pictures/verification/spinning_ring.png
