@@ -151,7 +151,8 @@ std::vector<FaceTraction> take_tractions(const State<2>& state, const Model<2>& 
     FaceTraction f;
     f.weight = extension ? extension->on_path(r) : 1;
     f.traction = (traction_at(near) + traction_at(far)) * 0.5;
-    f.opening_step = opening_at(crack, vertices, frame, k) - opening_at(crack, vertices, frame, k + 1);
+    // Ahead of the tip there is no opening; its own, a mean over a cell, is worked on by the traction as well.
+    f.opening_step = (k == 0 ? Vec<2>{} : opening_at(crack, vertices, frame, k)) - opening_at(crack, vertices, frame, k + 1);
     f.near = norm(crack.original[near] - x);
     f.far = norm(crack.original[far] - x);
     pieces.push_back(f);
