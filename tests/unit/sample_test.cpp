@@ -151,6 +151,7 @@ TEST(Sample, CracksHoldWhatIsKnownOfTheirTips) {
   for (const CrackQuantity& q : crack_quantities()) {
     for (std::size_t v = 0; v < count; ++v) {
       const bool is_tip = std::any_of(tips.begin(), tips.end(), [&](const FrameTip& tip) { return tip.vertex == v; });
+      if (q.name == "R") continue;  // of cracks with a traction law
       const bool expected = q.in == CrackFrames::all || (q.in == CrackFrames::with_fracture && is_tip);
       EXPECT_EQ(std::isfinite(value_at(frame, q.name, v)), expected) << q.name << " at " << v;
     }
