@@ -66,3 +66,7 @@ run strip_yield strip_yield verification
 draw strip_yield --quantity stress_yy --frame -1 --magnify 100 --window "-1 mm" "30 mm" "-12 mm" "12 mm" --output docs/pictures/verification/strip_yield.png
 run nucleation nucleation fracture
 draw nucleation --quantity stress_yy --magnify 20 --time "400 us" "420 us" "440 us" "480 us" --panel 2x2 --output docs/pictures/nucleation.png
+run kalthoff kalthoff fracture --set 'grid.cell="1 mm"'
+draw kalthoff --quantity velocity_x --range "-20 m/s" "60 m/s" --time "30 us" "50 us" "70 us" "90 us" --panel 2x2 --width 500 --output docs/pictures/verification/kalthoff.png
+run wing_crack wing_crack fracture
+draw wing_crack --quantity stress_yy --frame -1 --magnify 30 --window "-40 mm" "40 mm" "-50 mm" "50 mm" --width 500 --output docs/pictures/verification/wing_crack.png

@@ -35,7 +35,7 @@ TipField tip_field(const PlaneElasticity& elastic, const StressIntensity& K, dou
                         K.I * (0.5 * ch * (kappa - c) + sh * s) + K.II * (0.5 * sh * (kappa - 2 + c) + ch * s)};
   const double size = 1 / (2 * elastic.shear * std::sqrt(2 * std::numbers::pi * r));
   TipField field;
-  for (std::size_t i = 0; i < 2; ++i) field.gradient[i] = Vec<2>{{0.5 * c * f[i] - s * df[i], 0.5 * s * f[i] + c * df[i]}} * size;
+  for (std::size_t k = 0; k < 2; ++k) field.gradient[k] = Vec<2>{{0.5 * c * f[k] - s * df[k], 0.5 * s * f[k] + c * df[k]}} * size;
   field.stress = stress_of(elastic, field.gradient);
   return field;
 }
