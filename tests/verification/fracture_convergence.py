@@ -95,8 +95,8 @@ def run(program, shape, cells, degrees, offset):
     period = 4 * w / c
     x, y = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     low = -(w + 3 * h)
-    loads = "".join('[[load]]\nname = "%s"\nkind = "traction"\nface = "%s"\nvalue = [%g, %g]\n' % (face, face, SIGMA * i, SIGMA * j)
-                    for face, i, j in (("x+", 1, 0), ("x-", -1, 0), ("y+", 0, 1), ("y-", 0, -1)))
+    loads = "".join('[[load]]\nname = "%s"\nkind = "traction"\nface = "%s"\nvalue = [%g, %g]\n' % (name, face, SIGMA * i, SIGMA * j)
+                    for name, face, i, j in (("right", "x+", 1, 0), ("left", "x-", -1, 0), ("top", "y+", 0, 1), ("bottom", "y-", 0, -1)))
     text = PLATE.format(low=low, size=-2 * low, h=h, end=3 * period, shape=shape, damping=2 * math.pi / period, w=w, loads=loads,
                         x0=offset[0] * h - x, y0=offset[1] * h - y, x1=offset[0] * h + x, y1=offset[1] * h + y)
     with tempfile.TemporaryDirectory() as folder:
@@ -106,7 +106,7 @@ def run(program, shape, cells, degrees, offset):
                        stdout=subprocess.DEVNULL)
         with open(folder + "/out/history.csv") as f:
             reader = csv.reader(f)
-            names = [name.split(" ")[0] for name in next(reader)]
+            names = [name.split("[")[0] for name in next(reader)]
             last = list(reader)[-1]
     row = dict(zip(names, last))
     K = SIGMA * math.sqrt(math.pi)
