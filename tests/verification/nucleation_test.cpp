@@ -303,7 +303,7 @@ TEST(Nucleation, IsFollowedByGrowth) {
   p.more = nucleation(
       0.9e-3,
       "region = { kind = \"disk\", centre = [0.25, 0.25], radius = 0.1 }\ngrowth = { criterion = { law = \"critical_j\", toughness = "
-      "2e-6 } }\n");
+      "2e-6 }, release = 0 }\n");
   const auto s = make(text_of(p));
   double most = 0;
   run(*s, [&](Simulation& now) { most = std::fmax(most, std::fabs(value(now, "energy_closure"))); });

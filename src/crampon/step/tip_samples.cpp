@@ -173,6 +173,8 @@ std::vector<FaceTraction> take_contact_tractions(const State<2>& state, const Mo
   std::size_t clear = 0;
   while (clear + 1 < sides.size() && (norm(sides[clear].place) < 1.5 * h || sides[clear].piece != sides[clear + 1].piece)) ++clear;
   std::vector<FaceTraction> pieces;
+  const ContactLaw& law = model.contact.law_across(static_cast<CrackId>(tip.crack));
+  if (law.ignores()) return pieces;
   for (std::size_t s = 0; s + 1 < sides.size(); ++s) {
     const CrackSideSample &left = sides[s], &right = sides[s + 1];
     if (left.piece != right.piece) continue;  // the other side holds no material
@@ -185,6 +187,15 @@ std::vector<FaceTraction> take_contact_tractions(const State<2>& state, const Mo
     const Vec<2> at_near = opening_at(crack, vertices, frame, k), at_far = opening_at(crack, vertices, frame, k + 1);
     const double pressure = -dot(f.traction, up), opening = 0.5 * dot(at_near + at_far, up);
     if (!(pressure > 0) || opening * modulus > pressure * h) continue;
+    const Vec<2> along{{up[1], -up[0]}};
+    Sliding sliding;  // per area and time
+    const double shear = dot(f.traction, along);
+    sliding.normal = pressure, sliding.full = std::fabs(shear), sliding.mass = sliding.dt = sliding.area = 1;
+    const SlidingLimit limit = law.limit(sliding);
+    if (!limit.sticks) {
+      const double bound = limit.per_normal * pressure + limit.rest;
+      f.traction += along * (std::clamp(shear, -bound, bound) - shear);
+    }
     f.weight = extension.on_path(norm(left.place));
     f.opening_step = at_near - at_far;
     f.opening_step -= up * dot(f.opening_step, up);
