@@ -184,7 +184,7 @@ std::vector<FaceTraction> take_contact_tractions(const State<2>& state, const Mo
     FaceTraction f;
     const std::size_t from = clear + 1 < sides.size() ? std::max(s, clear) : s;
     for (std::size_t i = 0; i < 2; ++i) f.traction[i] = 0.5 * (dot(sides[from].stress[i], up) + dot(sides[from + 1].stress[i], up));
-    const Vec<2> at_near = opening_at(crack, vertices, frame, k), at_far = opening_at(crack, vertices, frame, k + 1);
+    const Vec<2> at_near = k == 0 ? Vec<2>{} : opening_at(crack, vertices, frame, k), at_far = opening_at(crack, vertices, frame, k + 1);
     const double pressure = -dot(f.traction, up), opening = 0.5 * dot(at_near + at_far, up);
     if (!(pressure > 0) || opening * modulus > pressure * h) continue;
     const Vec<2> along{{up[1], -up[0]}};
