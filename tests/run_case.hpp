@@ -76,6 +76,13 @@ inline std::vector<const char*> smooth_shape_functions() {
   return words;
 }
 
+/// One a line.
+inline std::string notes_of(const Simulation& s) {
+  std::string all;
+  for (const std::string& n : s.notes()) all += n + "\n";
+  return all;
+}
+
 /// Steps to the end; `each` sees the simulation after every step.
 inline void run(Simulation& simulation, const std::function<void(Simulation&)>& each = {}) {
   while (!simulation.finished()) {

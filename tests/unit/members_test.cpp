@@ -131,11 +131,11 @@ State<Dim> filled() {
   crack.fading[0].until = 0.5;
   s.fracture.nucleations.resize(1);
   s.fracture.nucleations[0].made = 3;
-  s.fracture.taken = 2;
+  s.fracture.energy = 2;
   s.fracture.tips.resize(1);
   s.fracture.tips[0] = {
       0, 1, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, NoParameter::none, NoParameter::tip}, 8, 9, 1, TipStatus::grows, 1, 2, 3, {{4, 5}}, true};
-  s.fracture.next = s.fracture.released = 1;
+  s.fracture.next = s.fracture.energy_by_J = 1;
   ContactName contact;
   contact.crack = 3;
   contact.others.insert(2);

@@ -79,12 +79,6 @@ std::size_t count_of(const Simulation& s, int kind) {
   for (std::size_t e = 0; e < s.event_count(); ++e) count += said(s, e, "event") == kind ? 1 : 0;
   return count;
 }
-std::string notes_of(const Simulation& s) {
-  std::string all;
-  for (const std::string& n : s.notes()) all += n + "\n";
-  return all;
-}
-
 /// The mean stress about a particle as the table says, in a straightforward way: {largest principal stress, x, y}, where it is largest.
 std::array<double, 3> highest_mean(const Simulation& s, double radius) {
   const PointFrame frame = s.particles({"stress"});

@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <numbers>
+#include <string_view>
 
 #include "crampon/input/read_problem.hpp"
 #include "crampon/run/build_model.hpp"
@@ -195,6 +196,7 @@ TEST(LargeStretch, IsTold) {
   };
   for (const char* shape_functions : {"gimp", "bspline", "cubic_bspline"}) {
     for (const Space space : {Space::oblique, Space::three}) {
+      if (space == Space::three && shape_functions != std::string_view("gimp")) continue;  // three runs more would ask nothing new
       const std::vector<std::string> told = notes({shape_functions, "usavg", space, 0.5, 1.3});
       ASSERT_EQ(told.size(), 1u) << shape_functions;
       EXPECT_EQ(told[0].find("a particle of the body \"bar\" (number "), 0u) << told[0];

@@ -47,6 +47,10 @@ VirtualExtension::VirtualExtension(const TipWeight& weight, const TipPath& path,
   }
 }
 
+bool VirtualExtension::meets_corners() const {
+  return std::any_of(corners_.begin(), corners_.end(), [&](const Vec<2>& corner) { return norm(corner) < weight_.outer(); });
+}
+
 VirtualExtension::Part VirtualExtension::beside_corners(const Vec<2>& place) const {
   Part part;
   for (const Vec<2>& corner : corners_) {

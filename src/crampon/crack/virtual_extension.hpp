@@ -25,6 +25,8 @@ class VirtualExtension {
   /// Size of q on the path at a distance from the tip.
   double on_path(double r) const;
   const TipWeight& weight() const { return weight_; }
+  /// Does the path turn sharply within the domain?
+  bool meets_corners() const;
 
  private:
   /// 1 but for corners, with its slope, 1/m.

@@ -19,6 +19,7 @@ enum class NoParameter : std::uint8_t {
   tip,          ///< ... to another tip
   crack,        ///< ... to another crack, or to another part of its own
   load,         ///< ... to where a load or a prescribed velocity acts
+  corner,       ///< its path turns sharply within the domain, and J is taken along a circle
   materials,    ///< several materials about the tip: J, but no K
   anisotropic,  ///< the law has no isotropic elasticity at small strain: J, but no K
   fast,         ///< the tip is not slower than Rayleigh waves: J, but no K
@@ -39,6 +40,8 @@ constexpr const char* reason(NoParameter why) {
       return "another crack, or another part of its own, is too near";
     case NoParameter::load:
       return "a load or a prescribed velocity acts too near";
+    case NoParameter::corner:
+      return "its path turns sharply near it, which form = \"domain\" can take";
     case NoParameter::materials:
       return "several materials meet there";
     case NoParameter::anisotropic:
@@ -156,16 +159,16 @@ struct NucleationState {
 
 struct Fracture {
   std::vector<CrackTip> tips;
-  double next = 0;      ///< when parameters are due, s
-  double released = 0;  ///< J times the area by which tips have grown, J
-  double taken = 0;     ///< by faces that part as tips grow, J
+  double next = 0;         ///< when parameters are due, s
+  double energy = 0;       ///< taken by faces that part as tips grow, J
+  double energy_by_J = 0;  ///< J times the area by which tips have grown, J
   std::vector<NucleationState> nucleations;
 
   template <class Self, class Visit>
   static void for_members(Self& self, Visit&& visit) {
-    auto& [tips, next, released, taken, nucleations] = self;
-    visit(Member{"released", "J"}, released);
-    visit(Member{"taken", "J"}, taken);
+    auto& [tips, next, energy, energy_by_J, nucleations] = self;
+    visit(Member{"energy", "J"}, energy);
+    visit(Member{"energy_by_J", "J"}, energy_by_J);
     visit(Member{"tips"}, tips);
     visit(Member{"next", "s"}, next);
     visit(Member{"nucleations"}, nucleations);

@@ -60,6 +60,12 @@ StiffestVertex spread_tractions(State<Dim>& state, StepWork<Dim>& work, const Mo
   StiffestVertex stiffest;
   for (auto& scratch : work.scratch) scratch.tractions.clear();
   std::vector<NodeOfPoint> above, below;
+  const auto share = [&](const Crack<Dim>& crack, std::size_t v, const Vec<Dim>& on_upper) {
+    find_nodes_of_point<Dim, Shape>(state, work, model, crack.upper_carriers[v], above);
+    find_nodes_of_point<Dim, Shape>(state, work, model, crack.lower_carriers[v], below);
+    share_force(work, above, on_upper);
+    share_force(work, below, -on_upper);
+  };
   for (std::size_t c = 0; c < state.cracks.size(); ++c) {
     const Crack<Dim>& crack = state.cracks.list[c];
     CrackTractionState<Dim>& t = state.cracks.list[c].traction;
@@ -70,10 +76,7 @@ StiffestVertex spread_tractions(State<Dim>& state, StepWork<Dim>& work, const Mo
       if (area[v] == 0 || t.history[v].failed != 0) continue;
       t.between[v] = !crack.upper_carriers[v].empty() && !crack.lower_carriers[v].empty();
       if (!t.between[v]) continue;  // a side without material bears nothing, and neither does the other then
-      find_nodes_of_point<Dim, Shape>(state, work, model, crack.upper_carriers[v], above);
-      find_nodes_of_point<Dim, Shape>(state, work, model, crack.lower_carriers[v], below);
-      share_force(work, above, t.force[v]);
-      share_force(work, below, -t.force[v]);
+      share(crack, v, t.force[v]);
       if (!(stiffness > 0)) continue;
       // The nodes about a vertex bear the springs of a whole cell of crack (docs/theory/traction.md, time step).
       const double m_a = moved_mass(work, above), m_b = moved_mass(work, below);
@@ -85,10 +88,7 @@ StiffestVertex spread_tractions(State<Dim>& state, StepWork<Dim>& work, const Mo
   for (const Crack<Dim>& crack : state.cracks.list) {
     for (const FadingTraction<Dim>& f : crack.fading) {
       if (crack.upper_carriers[f.vertex].empty() || crack.lower_carriers[f.vertex].empty()) continue;
-      find_nodes_of_point<Dim, Shape>(state, work, model, crack.upper_carriers[f.vertex], above);
-      find_nodes_of_point<Dim, Shape>(state, work, model, crack.lower_carriers[f.vertex], below);
-      share_force(work, above, f.force);
-      share_force(work, below, -f.force);
+      share(crack, f.vertex, f.force);
     }
   }
   state.clock.traction_time_step = stiffest.time_step;

@@ -76,7 +76,7 @@ class Energies final : public Observer<Dim> {
     b.strain = now.sums().strain;
     b.totals = now.state.ledger.energy;
     b.cohesive = now.state.ledger.cohesive;
-    b.growth = now.state.fracture.taken;
+    b.growth = now.state.fracture.energy;
     b.material_loss = now.sums().dissipated + now.state.ledger.left.dissipated;
     const auto& materials = now.model.materials;
     b.laws_dissipate =

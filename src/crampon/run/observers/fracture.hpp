@@ -12,8 +12,8 @@ class FractureParameters final : public Observer<Dim> {
   struct Length {
     double length = 0;  ///< m
   };
-  struct Released {
-    double taken = 0, by_J = 0;  ///< J
+  struct Energy {
+    double by_faces = 0, by_J = 0;  ///< J
   };
 
  public:
@@ -65,23 +65,23 @@ class FractureParameters final : public Observer<Dim> {
     };
     return all;
   }
-  static const auto& released_table() {
-    static const std::vector<Column<Released>> all = {
+  static const auto& energy_table() {
+    static const std::vector<Column<Energy>> all = {
         {{"fracture_energy", "J",
           "taken by the faces that part as tips grow, since the start; where cracks grow. What has held them together fades, and does this "
           "work",
           "sum over steps of the fading tractions times the opening"},
-         [](const Released& r, int) { return r.taken; }},
+         [](const Energy& e, int) { return e.by_faces; }},
         {{"fracture_energy_by_J", "J", "what tips have taken by their J as they grew, since the start: not a part of the balance",
           "sum of J times the area by which a tip grows"},
-         [](const Released& r, int) { return r.by_J; }},
+         [](const Energy& e, int) { return e.by_J; }},
     };
     return all;
   }
   static std::vector<ColumnDescription> describe() {
     std::vector<ColumnDescription> all = descriptions_in(tip_table());
     for (ColumnDescription& d : descriptions_in(length_table())) all.push_back(std::move(d));
-    for (ColumnDescription& d : descriptions_in(released_table())) all.push_back(std::move(d));
+    for (ColumnDescription& d : descriptions_in(energy_table())) all.push_back(std::move(d));
     return all;
   }
 
@@ -100,7 +100,7 @@ class FractureParameters final : public Observer<Dim> {
       }
       const auto& growth = now.model.growth;
       if (std::any_of(growth.begin(), growth.end(), [](const GrowthModel& g) { return g.acts(); }))
-        cells.add<Dim>(released_table(), Released{now.state.fracture.taken, now.state.fracture.released});
+        cells.add<Dim>(energy_table(), Energy{now.state.fracture.energy, now.state.fracture.energy_by_J});
     }
   }
 };

@@ -11,7 +11,7 @@ void fade_tractions(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& mo
   for (Crack<Dim>& crack : state.cracks.list) {
     for (FadingTraction<Dim>& f : crack.fading) {
       const Vec<Dim> opening = crack.upper[f.vertex] - crack.lower[f.vertex];
-      state.fracture.taken -= dot(f.force, opening - f.opening);
+      state.fracture.energy -= dot(f.force, opening - f.opening);
       f.opening = opening;
       f.force = f.at_first * std::max(0., (f.until - end) / (f.until - f.since));
     }

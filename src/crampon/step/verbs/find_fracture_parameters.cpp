@@ -47,44 +47,58 @@ double speed_of(const State<2>& state, const Model<2>& model, const CrackTip& ti
   return now > since ? std::fmin(way / (now - since), tip.speed) : tip.speed;
 }
 
+/// Has the material about a tip one isotropic elasticity? What stands in the way of K, if not.
+NoParameter bar_to_intensities(const State<2>& state, const Model<2>& model, const TipWatch& watch, const CrackTip& tip,
+                               const Vec<2>& place, double radius) {
+  const auto elastic = model.materials[tip.material].law->elasticity();
+  const bool one_material = std::all_of(watch.particles.begin(), watch.particles.end(), [&](const WatchedParticle& w) {
+    return w.material == tip.material || !belong_together(model, w.material, tip.material) ||
+           norm(state.particles.original[w.slot] - place) >= radius || model.materials[w.material].law->elasticity() == elastic;
+  });
+  if (!one_material) return NoParameter::materials;
+  return elastic ? NoParameter::none : NoParameter::anisotropic;
+}
+
 /// Parameters of a tip after a step of dt, s; 0: as if all were at rest.
 void find_parameters(const State<2>& state, const StepWork<2>& work, const Model<2>& model, const TipWatch& watch, double dt,
                      CrackTip& tip) {
-  const Crack<2>& crack = state.cracks.list[tip.crack];
-  TipParameters now;
   if (tip.status == TipStatus::unborn) return;
+  const Crack<2>& crack = state.cracks.list[tip.crack];
+  tip.now = {};
+  TipParameters& now = tip.now;
   now.speed = speed_of(state, model, tip);
   if (tip.status == TipStatus::joined || tip.status == TipStatus::left) {  // a tip no more
     now.no_J = now.no_K = NoParameter::outside;
-    tip.now = now;
     return;
   }
+  const auto give_up = [&](NoParameter why) {
+    now.no_J = now.no_K = why;
+    ++tip.missed;
+  };
   const TipRoom room = find_room(state, model, tip, watch);
   now.radius = room.radius;
   const double h = model.grid.largest_cell();
-  if (room.radius < std::fmin(FractureModel::least_outer, model.fracture.outer) * h * (1 - 1e-9)) {
-    now.no_J = now.no_K = room.bound;
-    tip.now = now;
-    ++tip.missed;
-    return;
-  }
-  ++tip.found;
+  if (room.radius < std::fmin(FractureModel::least_outer, model.fracture.outer) * h * (1 - 1e-9)) return give_up(room.bound);
   const TipFrame frame = original_frame(model, crack, tip);
-  const std::uint32_t material = *material_at_tip(state, model, frame.tip, watch);
-  tip.material = material;
-  const std::vector<TipSample> samples = take_samples(state, work, model, frame, watch, material, room.radius, dt);
+  tip.material = *material_at_tip(state, model, frame.tip, watch);
+  const TipWeight weight(room.radius * model.fracture.inner / model.fracture.outer, room.radius);
   const std::vector<Vec<2>> path = path_behind(crack, tip, frame);
   const TipPath as_seen(path);
-  const VirtualExtension extension(TipWeight(room.radius * model.fracture.inner / model.fracture.outer, room.radius), as_seen, h);
+  const VirtualExtension extension(weight, as_seen, h);
+  const bool along_circle = model.fracture.form == FractureModel::Form::contour;
+  if (along_circle && extension.meets_corners()) return give_up(NoParameter::corner);
+  ++tip.found;
+
+  const MaterialLaw& law = *model.materials[tip.material].law;
+  const std::vector<TipSample> samples = take_samples(state, work, model, frame, watch, tip.material, room.radius, dt);
   const std::vector<CrackSideSample> sides = take_sides(path, samples, room.radius, h);
   std::vector<FaceTraction> tractions = take_tractions(state, model, tip, room.radius, &extension);
-  const MaterialLaw& law = *model.materials[material].law;
   const double wave = law.wave_speed(model.stress_state);
   for (const FaceTraction& f : take_contact_tractions(state, model, tip, extension, sides, law.density() * wave * wave))
     tractions.push_back(f);
   const double middle = 0.5 * room.radius * (1 + model.fracture.inner / model.fracture.outer);
-  const Vec<2> J = model.fracture.form == FractureModel::Form::domain ? j_integral(samples, extension, tractions, sides)
-                                                                      : contour_integral(samples, as_seen, middle, h, tractions, sides);
+  const Vec<2> J =
+      along_circle ? contour_integral(samples, as_seen, middle, h, tractions, sides) : j_integral(samples, extension, tractions, sides);
   now.J = J[0], now.J_across = J[1];
   now.J_far = J[0];
   for (const FaceTraction& f : take_tractions(state, model, tip, std::numeric_limits<double>::infinity(), nullptr))
@@ -93,32 +107,23 @@ void find_parameters(const State<2>& state, const StepWork<2>& work, const Model
   const Vec<2> opening = opening_behind(model, crack, tip);
   now.phase = std::atan2(opening[0], opening[1]);
 
-  const auto elastic = law.elasticity();
-  const bool one_material = std::all_of(watch.particles.begin(), watch.particles.end(), [&](const WatchedParticle& w) {
-    return w.material == material || !belong_together(model, w.material, material) ||
-           norm(state.particles.original[w.slot] - frame.tip) >= room.radius || model.materials[w.material].law->elasticity() == elastic;
-  });
-  if (!one_material) {
-    now.no_K = NoParameter::materials;
-  } else if (!elastic) {
-    now.no_K = NoParameter::anisotropic;
-  } else {
-    const PlaneElasticity plane(elastic->plane_lambda(model.stress_state), elastic->mu);
-    const auto intensities = [&](const SteadyTip& as) {
-      if (model.fracture.mixity == FractureModel::Mixity::opening) return partition_by_opening(now.J, opening, as);
-      return share(now.J, interaction_integral(samples, extension, as_seen, as, tractions, sides), as);
-    };
-    const SteadyTip running(plane, law.density(), now.speed);
-    const StressIntensity rest = intensities(plane);
-    now.rest_I = rest.I, now.rest_II = rest.II;
-    if (running.is_slow()) {
-      const StressIntensity K = now.speed > 0 ? intensities(running) : rest;
-      now.K_I = K.I, now.K_II = K.II;
-    } else {
-      now.no_K = NoParameter::fast;
-    }
+  now.no_K = bar_to_intensities(state, model, watch, tip, frame.tip, room.radius);
+  if (now.no_K != NoParameter::none) return;
+  const ElasticConstants elastic = *law.elasticity();
+  const PlaneElasticity plane(elastic.plane_lambda(model.stress_state), elastic.mu);
+  const auto intensities = [&](const SteadyTip& as) {
+    if (model.fracture.mixity == FractureModel::Mixity::opening) return partition_by_opening(now.J, opening, as);
+    return share(now.J, interaction_integral(samples, extension, as_seen, as, tractions, sides), as);
+  };
+  const SteadyTip running(plane, law.density(), now.speed);
+  const StressIntensity rest = intensities(plane);
+  now.rest_I = rest.I, now.rest_II = rest.II;
+  if (!running.is_slow()) {
+    now.no_K = NoParameter::fast;
+    return;
   }
-  tip.now = now;
+  const StressIntensity K = now.speed > 0 ? intensities(running) : rest;
+  now.K_I = K.I, now.K_II = K.II;
 }
 
 }  // namespace

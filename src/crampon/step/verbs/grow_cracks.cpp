@@ -10,7 +10,7 @@
 #include "crampon/step/extend_crack.hpp"
 #include "crampon/step/filled_space.hpp"
 #include "crampon/step/instantiate.hpp"
-#include "crampon/step/particle_view.hpp"
+#include "crampon/step/mean_stress.hpp"
 #include "crampon/step/release_faces.hpp"
 #include "crampon/step/tip_frame.hpp"
 #include "crampon/step/tip_room.hpp"
@@ -35,26 +35,14 @@ struct Growth {
 /// Mean Cauchy stress of particles ahead of a tip, Pa, in its present frame; their weight falls with the distance in three cells. None where there are none.
 std::optional<Tensor2> stress_ahead(const State<2>& state, const Model<2>& model, const CrackTip& tip, const TipWatch& watch) {
   const Crack<2>& crack = state.cracks.list[tip.crack];
-  const double h = model.grid.largest_cell();
   const TipFrame frame = original_frame(model, crack, tip), present = present_frame(model, crack, tip);
-  Tensor2 sum{};
-  double weights = 0;
-  for (const WatchedParticle& w : watch.particles) {
-    if (state.particles.is_padding(w.slot) || !belong_together(model, w.material, tip.material)) continue;
-    const Vec<2> place = frame.turned(state.particles.original[w.slot] - frame.tip);
-    const double r = norm(place) / (3 * h);
-    if (place[0] <= 0 || r > 2) continue;
-    const int l = static_cast<int>(w.slot % lanes);
-    const PackView<2> view(state, model, w.material, w.slot / lanes);
-    const Pack* tau = view.stress();
-    const double to_cauchy = view.report().to_cauchy[l], weight = state.particles.volume(w.slot) * std::exp(-0.5 * r * r);
-    sum[0] += Vec<2>{{tau[0][l], tau[2][l]}} * (to_cauchy * weight);
-    sum[1] += Vec<2>{{tau[2][l], tau[1][l]}} * (to_cauchy * weight);
-    weights += weight;
-  }
-  if (!(weights > 0)) return std::nullopt;
-  const Tensor2 mean = {sum[0] * (1 / weights), sum[1] * (1 / weights)};
-  return turned(mean, present, present);
+  const auto mean = mean_stress(state, model, tip, watch, [&](std::size_t slot) {
+    const Vec<2> place = frame.turned(state.particles.original[slot] - frame.tip);
+    const double r = norm(place) / (3 * model.grid.largest_cell());
+    return place[0] <= 0 || r > 2 ? 0. : std::exp(-0.5 * r * r);
+  });
+  if (!mean) return std::nullopt;
+  return turned(*mean, present, present);
 }
 
 /// What criteria of growth may ask of a tip whose parameters have just been found.
@@ -184,7 +172,7 @@ void grow(State<Dim>& state, StepWork<Dim>& work, const Model<Dim>& model, Crack
   tip.status = status;
   tip.grown += length;
   tip.speed = g.speed;
-  if (std::isfinite(tip.now.J)) state.fracture.released += tip.now.J * length * model.materials[tip.material].thickness;
+  if (std::isfinite(tip.now.J)) state.fracture.energy_by_J += tip.now.J * length * model.materials[tip.material].thickness;
   tip.next_check = since + length / g.speed;
   using Kind = typename CrackEvent<Dim>::Kind;
   CrackEvent<Dim> event{state.clock.time, tip.crack, end,     0,         0,           Kind::grew,

@@ -11,7 +11,7 @@
 #include "crampon/step/extend_crack.hpp"
 #include "crampon/step/filled_space.hpp"
 #include "crampon/step/instantiate.hpp"
-#include "crampon/step/particle_view.hpp"
+#include "crampon/step/mean_stress.hpp"
 #include "crampon/step/tip_frame.hpp"
 #include "crampon/step/tip_room.hpp"
 #include "crampon/step/verbs.hpp"
@@ -24,7 +24,10 @@ namespace {
 struct PlaneStress {
   double xx = 0, yy = 0, xy = 0;
 
+  PlaneStress() = default;
+  explicit PlaneStress(const Tensor2& s) : xx(s[0][0]), yy(s[1][1]), xy(s[0][1]) {}
   void add(const PlaneStress& s, double weight) { xx += s.xx * weight, yy += s.yy * weight, xy += s.xy * weight; }
+  void divide(double by) { xx /= by, yy /= by, xy /= by; }
   double largest() const { return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy); }
   /// Unit vector across the largest principal stress. Its longer component is positive, so that rounding does not turn it round.
   Vec<2> across_largest() const {
@@ -33,17 +36,6 @@ struct PlaneStress {
     return (std::fabs(e[0]) > std::fabs(e[1]) ? e[0] : e[1]) < 0 ? -e : e;
   }
 };
-
-/// Of particle l of a pack; to_cauchy: of the pack's report.
-PlaneStress stress_in(const PackView<2>& pack, Pack to_cauchy, std::size_t lane) {
-  const Pack* tau = pack.stress();
-  const int l = static_cast<int>(lane);
-  return {tau[0][l] * to_cauchy[l], tau[1][l] * to_cauchy[l], tau[2][l] * to_cauchy[l]};
-}
-PlaneStress stress_of(const State<2>& state, const Model<2>& model, std::uint32_t material, std::size_t slot) {
-  const PackView<2> pack(state, model, material, slot / lanes);
-  return stress_in(pack, pack.report().to_cauchy, slot % lanes);
-}
 
 double distance_to_cracks(const State<2>& state, const Vec<2>& x) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -105,7 +97,7 @@ class Look {
       Vec<2> moment, places;
       for_near(nucleus.slot, [&](std::uint32_t slot, std::uint32_t material, double weight) {
         if (!belong_together(model_, material, nucleus.material)) return;
-        const PlaneStress stress = stress_of(state_, model_, material, slot);
+        const PlaneStress stress(cauchy_stress(state_, model_, material, slot));
         const Vec<2> from_nucleus = (state_.particles.position(slot) - state_.particles.position(nucleus.slot)) * weight;
         nucleus.mean.add(stress, weight);
         weights += weight;
@@ -113,7 +105,7 @@ class Look {
         moment += from_nucleus * stress.largest();
         places += from_nucleus;
       });
-      nucleus.mean = {nucleus.mean.xx / weights, nucleus.mean.yy / weights, nucleus.mean.xy / weights};
+      nucleus.mean.divide(weights);
       nucleus.rise = moment - places * (sum / weights);
       nucleus.largest = nucleus.mean.largest();
     });
@@ -137,7 +129,7 @@ class Look {
         const Pack to_cauchy = pack.report().to_cauchy;
         for (std::size_t p = k * lanes; p < (k + 1) * lanes; ++p) {
           if (state_.particles.is_padding(p)) continue;
-          const double largest = stress_in(pack, to_cauchy, p % lanes).largest();
+          const double largest = PlaneStress(cauchy_stress(pack, to_cauchy, p % lanes)).largest();
           highest[r] = std::fmax(highest[r], largest);
           if (largest >= nucleation_.strength &&
               distance_to_cracks(state_, state_.particles.position(p)) >= nucleation_.distance - nucleation_.radius)
