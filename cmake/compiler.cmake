@@ -20,4 +20,5 @@ if(CRAMPON_SANITIZE)
   target_compile_options(crampon_flags INTERFACE -fsanitize=${_san} -fno-omit-frame-pointer -g)
   target_link_options(crampon_flags INTERFACE -fsanitize=${_san})
 endif()
+# With -O2 a step takes 20 to 100 % more instructions: g++ 12 then leaves the short loops over axes and nodes of a cell as loops.
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the engine and the oracle on the same cases and compares every particle and crack vertex at every step.
 
-compare.py PROGRAM [--case TEXT ...] [--third] [--folder DIR] [--list]
+compare.py PROGRAM [--case TEXT ...] [--share N] [--folder DIR] [--list]
 
 Differences are given relative to the largest value of the field in the whole run. Tolerance 1e-9: both sides add the same
 numbers in another order, some 1e-16 a step, and 60 steps of wave propagation and contact do not amplify that a million times.
@@ -101,7 +101,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", nargs="?", help="the crampon program")
     parser.add_argument("--case", action="append", default=[], help="only cases whose name contains this text")
-    parser.add_argument("--third", action="store_true", help="only the first third of the steps")
+    parser.add_argument("--share", type=int, default=1, metavar="N", help="only the first of N parts of the steps")
     parser.add_argument("--folder", help="keep inputs and results here")
     parser.add_argument("--list", action="store_true", help="print the names of the cases")
     arguments = parser.parse_args()
@@ -111,9 +111,8 @@ def main():
         return 0
     if not arguments.program or not chosen:
         parser.error("no program" if chosen else "no case of that name")
-    if arguments.third:
-        for case in chosen:
-            case["steps"] //= 3
+    for case in chosen:
+        case["steps"] = max(case["steps"] // arguments.share, 2)
     passed = failed = 0
     with tempfile.TemporaryDirectory() as temporary:
         for case in chosen:

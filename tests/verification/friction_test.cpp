@@ -188,11 +188,10 @@ TEST_P(Adhesion, BreaksOnItsEllipse) {
   EXPECT_NEAR(broke / rise, 1, c.tolerance);
   EXPECT_GT(std::hypot(m.v.back(), m.fall.back()), 0.01);
 }
-INSTANTIATE_TEST_SUITE_P(Pulls, Adhesion,
-                         testing::Values(Pull{"tangential", 0, 1, "linear"}, Pull{"mixed", 1, 2, "gimp"}, Pull{"normal", 1, 0, "bspline"}));
+INSTANTIATE_TEST_SUITE_P(Pulls, Adhesion, testing::Values(Pull{"tangential", 0, 1, "linear"}, Pull{"mixed", 1, 2, "gimp"}));
 INSTANTIATE_TEST_SUITE_P(PullsFull, Adhesion,
-                         testing::Values(Pull{"normal", 1, 0, "linear"}, Pull{"mixed", 1, 1, "linear"}, Pull{"tangential", 0, 1, "gimp"},
-                                         Pull{"mixed", 1, 1, "bspline", 0.09}));
+                         testing::Values(Pull{"normal", 1, 0, "linear"}, Pull{"normal", 1, 0, "bspline"}, Pull{"mixed", 1, 1, "linear"},
+                                         Pull{"tangential", 0, 1, "gimp"}, Pull{"mixed", 1, 1, "bspline", 0.09}));
 
 struct Onset {
   double at_rest, sliding;  ///< coefficients
@@ -229,8 +228,8 @@ TEST_P(StaticFriction, HoldsUntilItsOwnCoefficient) {
   EXPECT_NEAR(found, c.at_rest, 0.03 * c.at_rest);
   EXPECT_NEAR(S / N, c.sliding, 0.01 * c.sliding);
 }
-INSTANTIATE_TEST_SUITE_P(Coefficients, StaticFriction,
-                         testing::Values(Onset{0.4, 0.2, "bspline"}, Onset{0.3, 0.25, "gimp"}, Onset{0.4, 0.2, "linear"}));
+INSTANTIATE_TEST_SUITE_P(Coefficients, StaticFriction, testing::Values(Onset{0.4, 0.2, "linear"}));
+INSTANTIATE_TEST_SUITE_P(CoefficientsFull, StaticFriction, testing::Values(Onset{0.4, 0.2, "bspline"}, Onset{0.3, 0.25, "gimp"}));
 
 }  // namespace
 }  // namespace crampon::test

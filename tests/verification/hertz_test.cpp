@@ -195,11 +195,10 @@ class Hertz : public testing::TestWithParam<Indenter> {};
 /// Five cells in half the width. At rest the flat bears the load, 0.3 %; the pressure in the first row of cells is p_0 sqrt(1 - x^2/b^2).
 /// Row 40 asks for 5 % with ten cells and sixteen particles each (below); with five cells the edge comes out 5 to 7 % early.
 TEST_P(Hertz, PressureIsHalfAnEllipse) { expect_half_an_ellipse(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Flats, Hertz,
-                         testing::Values(Indenter{"bspline", Flat::wall, 5, 3, 0.09, 0.08},
-                                         Indenter{"linear", Flat::particles, 5, 3, 0.05, 0.06}));
+INSTANTIATE_TEST_SUITE_P(Flats, Hertz, testing::Values(Indenter{"linear", Flat::particles, 5, 3, 0.05, 0.06}));
 INSTANTIATE_TEST_SUITE_P(FlatsFull, Hertz,
-                         testing::Values(Indenter{"linear", Flat::wall, 5, 3, 0.05, 0.06}, Indenter{"gimp", Flat::wall, 5, 3, 0.05, 0.06},
+                         testing::Values(Indenter{"linear", Flat::wall, 5, 3, 0.05, 0.06},
+                                         Indenter{"bspline", Flat::wall, 5, 3, 0.09, 0.08}, Indenter{"gimp", Flat::wall, 5, 3, 0.05, 0.06},
                                          Indenter{"gimp", Flat::elastic, 5, 3, 0.05, 0.08}));
 
 class HertzFull : public Hertz {};

@@ -72,14 +72,13 @@ TEST_P(GroundAtRest, StaysAtRest) {
 }
 
 constexpr double still = 1e-20;  // J: speeds of 1e-12 m/s, round-off of 10 kPa over 1000 kg/m3
-INSTANTIATE_TEST_SUITE_P(InitialStress, GroundAtRest,
-                         testing::Values(Ground{"elastic_small_strain", "linear", 2, 0, still},
-                                         Ground{"elastic_small_strain", "gimp", 2, 0, still},
-                                         Ground{"elastic_large_rotation", "gimp", 2, 0.25, still},
-                                         Ground{"neo_hookean", "gimp", 2, 0.5, still}, Ground{"neo_hookean", "linear", 2, 0.75, still},
-                                         Ground{"elastic_small_strain", "bspline", 2, 0, 2e-3},
-                                         Ground{"neo_hookean", "bspline", 2, 0.25, 2e-3}, Ground{"neo_hookean", "gimp", 3, 0, still},
-                                         Ground{"elastic_large_rotation", "linear", 3, 0.5, still}));
+INSTANTIATE_TEST_SUITE_P(
+    InitialStress, GroundAtRest,
+    testing::Values(Ground{"elastic_small_strain", "linear", 2, 0, still}, Ground{"elastic_small_strain", "gimp", 2, 0, still},
+                    Ground{"elastic_large_rotation", "gimp", 2, 0.25, still}, Ground{"neo_hookean", "gimp", 2, 0.5, still},
+                    Ground{"neo_hookean", "linear", 2, 0.75, still}, Ground{"elastic_small_strain", "bspline", 2, 0, 2e-3},
+                    Ground{"neo_hookean", "bspline", 2, 0.25, 2e-3}, Ground{"elastic_large_rotation", "linear", 3, 0.5, still}));
+INSTANTIATE_TEST_SUITE_P(InitialStressFull, GroundAtRest, testing::Values(Ground{"neo_hookean", "gimp", 3, 0, still}));
 
 /// Stress by components, here by an expression: probes read it back at the start, and energy is that of the strain behind it.
 TEST(InitialStress, ByComponentsIsReadBack) {

@@ -178,8 +178,9 @@ TEST_P(InterfaceStretch, AddsTheSpringInSeries) {
   bar.law = springs(1e11, 1e11);
   EXPECT_NEAR(stretch(bar, -pull), short_one, 0.001 * whole);
 }
-INSTANTIATE_TEST_SUITE_P(Ways, InterfaceStretch, testing::Values(WaveCase{true, "gimp"}));
-INSTANTIATE_TEST_SUITE_P(WaysFull, InterfaceStretch, testing::Values(WaveCase{false, "linear"}, WaveCase{false, "bspline"}));
+INSTANTIATE_TEST_SUITE_P(Ways, InterfaceStretch, testing::Values(WaveCase{true, "linear"}));
+INSTANTIATE_TEST_SUITE_P(WaysFull, InterfaceStretch,
+                         testing::Values(WaveCase{false, "linear"}, WaveCase{true, "gimp"}, WaveCase{false, "bspline"}));
 
 /// Row 30, last part: an interface in a swinging bar over many steps, 400 of them a period of the bar.
 void expect_energy_kept(double D, int steps, double within) {

@@ -124,9 +124,13 @@ std::string name_of_case(const testing::TestParamInfo<std::tuple<StressState, co
   return fmt::format("{}_{}", name_of(std::get<0>(info.param)), std::get<1>(info.param));
 }
 INSTANTIATE_TEST_SUITE_P(All, DrawnBar,
-                         testing::Combine(testing::Values(StressState::plane_strain, StressState::plane_stress,
-                                                          StressState::three_dimensional),
+                         testing::Combine(testing::Values(StressState::plane_strain, StressState::plane_stress),
                                           testing::Values("usl", "musl", "usf", "usavg")),
+                         name_of_case);
+INSTANTIATE_TEST_SUITE_P(Space, DrawnBar, testing::Combine(testing::Values(StressState::three_dimensional), testing::Values("musl")),
+                         name_of_case);
+INSTANTIATE_TEST_SUITE_P(SpaceFull, DrawnBar,
+                         testing::Combine(testing::Values(StressState::three_dimensional), testing::Values("usl", "usf", "usavg")),
                          name_of_case);
 
 TEST_P(DrawnBar, YieldsAndUnloadsAsInClosedForm) {

@@ -191,7 +191,7 @@ TEST(PressedLayerOnLongCells, BearsItsForce) {
 }
 
 /// In space: a block of 4 x 4 x 4 cells between boxes, and between walls.
-TEST(PressedLayerInSpace, BearsItsForce) {
+TEST(PressedLayerInSpaceFull, BearsItsForce) {
   double worst = 0;
   for (const char* shape_functions : all_shape_functions()) {
     for (const bool plates : {true, false}) {
@@ -294,7 +294,7 @@ INSTANTIATE_TEST_SUITE_P(Plates, ThinPlate, testing::ValuesIn(for_all_shape_func
                          [](const auto& of) { return fmt::format("{}_{:.0f}", of.param.shape_functions, of.param.degrees); });
 
 /// The same in space: a cube of four cells on a box of a quarter and of three cells.
-TEST(ThinPlateInSpace, ThrowsBackAsAThickOne) {
+TEST(ThinPlateInSpaceFull, ThrowsBackAsAThickOne) {
   const auto momentum = [](const char* shape_functions, double thickness) {
     constexpr double speed = 0.02;
     std::string text = text_in_space({.shape_functions = shape_functions, .end = 34, .material = "neo_hookean"}, {-6, -6, -6}, {6, 6, 10});

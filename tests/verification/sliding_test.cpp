@@ -67,9 +67,8 @@ TEST_P(DiskOnIncline, SlipsOrRolls) {
   EXPECT_NEAR(a, expected, 0.02 * expected);
   EXPECT_NEAR(turning, spin, 0.03 * std::fabs(spin));
 }
-INSTANTIATE_TEST_SUITE_P(Rims, DiskOnIncline,
-                         testing::Values(Disk{"slips", 0.495, "gimp"}, Disk{"rolls", 1., "gimp"}, Disk{"slips", 0.495, "linear"},
-                                         Disk{"rolls", 1., "linear"}));
+INSTANTIATE_TEST_SUITE_P(Rims, DiskOnIncline, testing::Values(Disk{"slips", 0.495, "gimp"}, Disk{"rolls", 1., "linear"}));
+INSTANTIATE_TEST_SUITE_P(RimsFull, DiskOnIncline, testing::Values(Disk{"rolls", 1., "gimp"}, Disk{"slips", 0.495, "linear"}));
 
 /// A block of 24 x 12 mm, E = 1 MPa, on an incline of 30 degrees, stuck: its mean displacement along the floor and, by Rayleigh's quotient,
 /// its frequency, from a static solution with bilinear finite elements of 0.5 mm (plane strain, all nodes at the floor fixed; with 1 and
@@ -159,7 +158,8 @@ TEST_P(StickingToABody, MovesAsUnilateralContactSays) {
   EXPECT_LT(error[1], 0.12);
   EXPECT_LT(error[1], error[0]);
 }
-INSTANTIATE_TEST_SUITE_P(Shapes, StickingToABody, testing::Values("linear", "gimp"));
+INSTANTIATE_TEST_SUITE_P(Shapes, StickingToABody, testing::Values("linear"));
+INSTANTIATE_TEST_SUITE_P(ShapesFull, StickingToABody, testing::Values("gimp"));
 
 class PressedBlock : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
